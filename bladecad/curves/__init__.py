@@ -1,0 +1,1 @@
+"""Points become lines: edges, sides, arc length, section properties."""

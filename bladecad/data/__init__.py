@@ -1,0 +1,1 @@
+"""What was measured: sections, readers and writers by suffix, synthetic blades with known answers."""

@@ -1,0 +1,1 @@
+"""How far from the metal: distances, zones, verdict."""

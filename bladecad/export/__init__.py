@@ -1,0 +1,1 @@
+"""Files for the next person: STEP, STL, the model file, the report, pictures."""

@@ -1,0 +1,1 @@
+"""Lines become flows: linear systems, derivative matching, variable projection, order."""

@@ -1,0 +1,1 @@
+"""Flows become a surface: homotopy, S(u,t), dense grid, triangulation, lofting."""
