@@ -1,0 +1,167 @@
+"""A STEP file read back as another program would, and compared with the solid it came from."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, Final, final
+
+import cadquery as cq
+import numpy as np
+from OCP.IFSelect import IFSelect_ReturnStatus
+from OCP.Quantity import Quantity_Color, Quantity_TypeOfColor
+from OCP.STEPCAFControl import STEPCAFControl_Reader
+from OCP.TCollection import TCollection_ExtendedString
+from OCP.TDataStd import TDataStd_Name
+from OCP.TDF import TDF_Label, TDF_LabelSequence
+from OCP.TDocStd import TDocStd_Document
+from OCP.XCAFDoc import (
+    XCAFDoc_ColorTool,
+    XCAFDoc_ColorType,
+    XCAFDoc_DocumentTool,
+    XCAFDoc_ShapeTool,
+)
+
+from bladecad.arrays import Array, seal
+from bladecad.brep.kernel import kernel
+from bladecad.brep.solid import Solid
+from bladecad.brep.statics import statics
+from bladecad.brep.witnesses import volume
+from bladecad.errors import ExportError
+
+SETTINGS: Final[Mapping[str, str]] = {
+    "xstep.cascade.unit": "MM",
+    "read.stepcaf.subshapes.name": "On",
+}
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class StepFile:
+    """What stands in a STEP file, in mm.
+
+    shape   : the cadquery shape at the root, the compound of all where there are several
+    product : the name of the first root
+    solids  : how many solids there are
+    faces   : all faces that have a name
+    colours : sRGB of each named face that has one
+    valid   : the kernel's check
+    volume  : mm^3
+    bounds  : (2, 3) float, mm; smallest and largest corner
+    """
+
+    shape: cq.Shape
+    product: str
+    solids: int
+    faces: Mapping[str, cq.Face]
+    colours: Mapping[str, tuple[float, float, float]]
+    valid: bool
+    volume: float
+    bounds: Array
+
+    def __post_init__(self) -> None:
+        seal(self, bounds=(2, 3))
+
+
+def read_step(path: str | os.PathLike[str]) -> StepFile:
+    """Read a STEP file with its names and colours.
+
+    Raises
+    ------
+    ExportError
+        If the file cannot be read as STEP, or holds no shape.
+    """
+    with statics(SETTINGS), kernel(f"reading {os.fspath(path)}"):
+        document = _document(os.fspath(path))
+        roots = _roots(document)
+        if not roots:
+            raise ExportError(f"{os.fspath(path)} holds no shape")
+        shapes = [cq.Shape.cast(XCAFDoc_ShapeTool.GetShape_s(root)) for root in roots]
+        return _content(document, _text(roots[0]), shapes)
+
+
+def bounds(shape: cq.Shape) -> Array:
+    """Return the smallest and the largest corner of the box around a shape, (2, 3) mm."""
+    box = shape.BoundingBox()
+    return np.array([[box.xmin, box.ymin, box.zmin], [box.xmax, box.ymax, box.zmax]])
+
+
+def confirm(solid: Solid, again: StepFile, *, volume: float = 1e-6, corner: float = 1e-4) -> None:
+    """Raise ExportError unless the file holds that very solid.
+
+    One valid solid, the same face names, volume within `volume` (relative), and both corners of
+    the box around it within `corner` mm.
+    """
+    error = abs(again.volume / solid.witnesses.volume - 1)
+    shift = float(np.abs(again.bounds - bounds(solid.shape)).max())
+    total = len(again.shape.Faces())
+    against = [
+        "" if again.solids == 1 else f"{again.solids} solids, not 1",
+        "" if again.valid else "the kernel's check fails",
+        "" if total == len(solid.faces) else f"{total} faces, not {len(solid.faces)}",
+        "" if set(again.faces) == set(solid.faces) else f"faces named {sorted(again.faces)}",
+        "" if error <= volume else f"volume {error:.3g} off, {volume:g} allowed",
+        "" if shift <= corner else f"box {shift:.3g} mm off, {corner:g} mm allowed",
+    ]
+    if any(against):
+        raise ExportError("STEP read back is another blade: " + "; ".join(filter(None, against)))
+
+
+def _document(path: str) -> Any:
+    document = TDocStd_Document(TCollection_ExtendedString("bladecad"))
+    reader = STEPCAFControl_Reader()
+    reader.SetColorMode(True)
+    reader.SetNameMode(True)
+    if reader.ReadFile(path) != IFSelect_ReturnStatus.IFSelect_RetDone:
+        raise ExportError(f"{path} cannot be read as STEP; is it there, and whole?")
+    if not reader.Transfer(document):
+        raise ExportError(f"{path} is STEP, but nothing in it turns into a shape")
+    return document
+
+
+def _roots(document: Any) -> list[Any]:
+    labels = TDF_LabelSequence()
+    XCAFDoc_DocumentTool.ShapeTool_s(document.Main()).GetFreeShapes(labels)
+    return list(labels)
+
+
+def _content(document: Any, product: str, shapes: list[cq.Shape]) -> StepFile:
+    shape = shapes[0] if len(shapes) == 1 else cq.Compound.makeCompound(shapes)
+    labels = _face_labels(document, shape)
+    return StepFile(
+        shape=shape,
+        product=product,
+        solids=len(shape.Solids()),
+        faces=MappingProxyType({name: face for name, (face, _) in labels.items()}),
+        colours=MappingProxyType(_colours(labels)),
+        valid=shape.isValid(),
+        volume=volume(shape),
+        bounds=bounds(shape),
+    )
+
+
+def _face_labels(document: Any, shape: cq.Shape) -> dict[str, tuple[cq.Face, Any]]:
+    tool = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
+    found = {}
+    for face in shape.Faces():
+        label = TDF_Label()
+        if tool.Search(face.wrapped, label) and _text(label):
+            found[_text(label)] = (face, label)
+    return found
+
+
+def _colours(labels: Mapping[str, tuple[cq.Face, Any]]) -> dict[str, tuple[float, float, float]]:
+    found = {}
+    for name, (_, label) in labels.items():
+        colour = Quantity_Color()
+        if XCAFDoc_ColorTool.GetColor_s(label, XCAFDoc_ColorType.XCAFDoc_ColorSurf, colour):
+            found[name] = tuple(colour.Values(Quantity_TypeOfColor.Quantity_TOC_sRGB))
+    return found
+
+
+def _text(label: Any) -> str:
+    attribute = TDataStd_Name()
+    found = label.FindAttribute(TDataStd_Name.GetID_s(), attribute)
+    return str(attribute.Get().ToExtString()) if found else ""

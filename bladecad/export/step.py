@@ -1,0 +1,134 @@
+"""STEP for CAM and CAD: one solid at the root, its faces named and coloured, in mm."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any, Final, Literal, TypeAlias
+
+from OCP.APIHeaderSection import APIHeaderSection_MakeHeader
+from OCP.IFSelect import IFSelect_ReturnStatus
+from OCP.Quantity import Quantity_Color, Quantity_TypeOfColor
+from OCP.STEPCAFControl import STEPCAFControl_Writer
+from OCP.STEPControl import STEPControl_StepModelType
+from OCP.TCollection import TCollection_ExtendedString, TCollection_HAsciiString
+from OCP.TDataStd import TDataStd_Name
+from OCP.TDocStd import TDocStd_Document
+from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool
+
+from bladecad.brep.kernel import kernel
+from bladecad.brep.names import (
+    HUB,
+    LEADING_EDGE,
+    PRESSURE_SIDE,
+    SUCTION_SIDE,
+    TIP,
+    TRAILING_EDGE,
+)
+from bladecad.brep.solid import Solid
+from bladecad.brep.statics import statics
+from bladecad.errors import ExportError
+
+Schema: TypeAlias = Literal["AP242DIS", "AP214IS"]
+
+COLOURS: Final[Mapping[str, tuple[float, float, float]]] = {  # sRGB, as seen on the screen
+    SUCTION_SIDE: (0.26, 0.52, 0.76),
+    PRESSURE_SIDE: (0.86, 0.44, 0.32),
+    HUB: (0.55, 0.55, 0.58),
+    TIP: (0.78, 0.78, 0.80),
+    LEADING_EDGE: (0.95, 0.77, 0.28),
+    TRAILING_EDGE: (0.45, 0.66, 0.38),
+}
+
+SETTINGS: Final[Mapping[str, str]] = {
+    "write.step.unit": "MM",
+    "xstep.cascade.unit": "MM",
+    "write.stepcaf.subshapes.name": "On",
+    "write.surfacecurve.mode": "On",
+    "write.precision.mode": "Average",
+    "write.step.assembly": "Off",
+    "write.step.nonmanifold": "Off",
+}
+
+
+def write_step(
+    solid: Solid, path: str | os.PathLike[str], *, name: str, schema: Schema = "AP242DIS"
+) -> None:
+    """Write the blade as STEP, or nothing at all.
+
+    Parameters
+    ----------
+    solid : Solid
+        In mm; its face names and their colours go into the file.
+    path : path
+        Replaced when it exists; written beside first and then renamed.
+    name : str
+        The product name that CAD programs show.
+    schema : {"AP242DIS", "AP214IS"}
+        AP242 is today's; AP214 for older programs.
+
+    Raises
+    ------
+    ExportError
+        If the folder is missing or closed to us, or the kernel does not write.
+
+    Notes
+    -----
+    cadquery's `exportStepMeta` writes an empty file for a solid at the root, and nests it as a
+    child; hence this writer.
+    """
+    path = Path(path)
+    beside = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        with statics({**SETTINGS, "write.step.schema": schema}), kernel(f"writing {path.name}"):
+            _write(_transferred(_document(solid, name), path.name), beside)
+        beside.replace(path)
+    except OSError as error:
+        raise ExportError(f"{path} cannot be written: {error.strerror}") from error
+    finally:
+        beside.unlink(missing_ok=True)
+
+
+def _document(solid: Solid, name: str) -> Any:
+    document = TDocStd_Document(TCollection_ExtendedString("bladecad"))
+    shapes = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
+    colours = XCAFDoc_DocumentTool.ColorTool_s(document.Main())
+    root = shapes.AddShape(solid.shape.wrapped, False)
+    _name(root, name)
+    for face_name, face in solid.faces.items():
+        label = shapes.AddSubShape(root, face.wrapped)
+        _name(label, face_name)
+        colours.SetColor(label, _colour(face_name), XCAFDoc_ColorType.XCAFDoc_ColorSurf)
+    return document
+
+
+def _transferred(document: Any, title: str) -> STEPCAFControl_Writer:
+    writer = STEPCAFControl_Writer()
+    writer.SetColorMode(True)
+    writer.SetNameMode(True)
+    if not writer.Transfer(document, STEPControl_StepModelType.STEPControl_AsIs):
+        raise ExportError(f"the CAD kernel does not turn the solid into STEP for {title}")
+    header = APIHeaderSection_MakeHeader(writer.ChangeWriter().Model())
+    header.SetName(TCollection_HAsciiString(title))
+    header.SetAuthorValue(1, TCollection_HAsciiString(""))
+    header.SetOrganizationValue(1, TCollection_HAsciiString(""))
+    header.SetOriginatingSystem(TCollection_HAsciiString(f"bladecad {version('bladecad')}"))
+    return writer
+
+
+def _write(writer: STEPCAFControl_Writer, path: Path) -> None:
+    with path.open("wb"):
+        pass  # says why a file cannot be written, which the kernel does not
+    status = writer.Write(str(path))
+    if status != IFSelect_ReturnStatus.IFSelect_RetDone:
+        raise ExportError(f"the CAD kernel does not write {path}: {status.name}")
+
+
+def _name(label: Any, text: str) -> None:
+    TDataStd_Name.Set_s(label, TCollection_ExtendedString(text, True))
+
+
+def _colour(face_name: str) -> Quantity_Color:
+    return Quantity_Color(*COLOURS[face_name], Quantity_TypeOfColor.Quantity_TOC_sRGB)
