@@ -1,1 +1,1 @@
-"""What was measured: sections, readers and writers by suffix, synthetic blades with known answers."""
+"""What was measured: sections, readers and writers, synthetic blades with known answers."""

@@ -1,4 +1,4 @@
-"""What was measured: sections, each a loop of points round the airfoil, and where they came from."""
+"""What was measured: sections, each a loop of points round the airfoil, and their source."""
 
 from __future__ import annotations
 
@@ -31,7 +31,8 @@ class Section:
               () not said, (i,) a round edge, (i, j) the two corners of a blunt, cut-off edge.
               With j the later corner in loop order: the edge face runs from points[i] to points[j]
     suction : where the file says which side is which: "first" if the arc that runs in loop order
-              from the leading to the trailing edge is the suction side, "second" if it is the pressure side
+              from the leading to the trailing edge is the suction side, "second" if it is the
+              pressure side
     """
 
     name: str
@@ -47,7 +48,8 @@ class Section:
         for edge, corners in (("leading", self.le), ("trailing", self.te)):
             if len(corners) > 2 or any(not 0 <= i < n for i in corners):
                 raise DataError(
-                    f'section "{self.name}": {edge} edge at points {corners}, the loop has {n} points'
+                    f'section "{self.name}": {edge} edge at points {corners}, '
+                    f"the loop has {n} points"
                 )
 
 

@@ -1,0 +1,81 @@
+"""One section a file: numbered siblings, folders and lists of files become one blade."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from bladecad.data.draft import Draft
+from bladecad.data.formats import SUFFIXES, draft_of
+from bladecad.errors import DataError
+
+_NUMBERED = re.compile(r"(.*?)(\d+)")
+
+
+def draft_of_blade(path: Path) -> Draft:
+    """Read a file; where it is one section of a numbered family, read the whole family."""
+    form, draft = draft_of(path)
+    family = siblings(path) if form.numbered and len(draft.sections) == 1 else []
+    if len(family) < 2:
+        return draft
+    drafts = [draft_of(member)[1] for member in family]
+    note = f"{len(family)} sections, one a file: {family[0].name} to {family[-1].name}"
+    return joined([draft, *drafts], family, drafts).noted(note)
+
+
+def draft_of_list(paths: Sequence[Path]) -> Draft:
+    """Read several files as one blade, in the order given."""
+    drafts = [draft_of(path)[1] for path in paths]
+    return joined(drafts, paths, drafts)
+
+
+def joined(said: Sequence[Draft], paths: Sequence[Path], drafts: Sequence[Draft]) -> Draft:
+    """Put the sections of `drafts` together; all else is as the first of `said` has it."""
+    for path, draft in zip(paths, drafts, strict=True):
+        if (draft.unit, draft.axis) != (said[0].unit, said[0].axis):
+            raise DataError(
+                f"{path.name}: unit {draft.unit} and axis {draft.axis}, its fellows have "
+                f"{said[0].unit} and {said[0].axis}; bring them to one"
+            )
+    sections = tuple(
+        replace(s, name=path.stem if len(draft.sections) == 1 else f"{path.stem} {s.name}")
+        for path, draft in zip(paths, drafts, strict=True)
+        for s in draft.sections
+    )
+    notes = tuple(dict.fromkeys(note for draft in said for note in draft.notes))
+    return replace(said[0], sections=sections, notes=notes)
+
+
+def siblings(path: Path) -> list[Path]:
+    """Return the files of the folder that differ from `path` by their last number, in its order."""
+    stem = _family(path)
+    found = [p for p in path.parent.iterdir() if p.suffix == path.suffix and _family(p) == stem]
+    return sorted(found, key=lambda p: int(p.stem[len(stem) :])) if stem is not None else []
+
+
+def blade_in(folder: Path) -> Path:
+    """Return the file to read in a folder: its `.inf`, or the one file or family of sections.
+
+    Raises
+    ------
+    DataError
+        If there is none, or more than one blade.
+    """
+    files = [p for p in sorted(folder.iterdir()) if p.suffix.lower() in SUFFIXES and p.is_file()]
+    inf = [p for p in files if p.suffix.lower() == ".inf"]
+    aside = re.compile("hub|shroud|flowpath|^info$", re.IGNORECASE)
+    files = inf or [p for p in files if not aside.search(p.stem)]
+    blades = {
+        re.sub(r"_?(\d+|points|sections)$", "", p.stem) + p.suffix: p for p in reversed(files)
+    }
+    if len(blades) != 1:
+        names = ", ".join(sorted(p.name for p in blades.values())) or "no file of sections"
+        raise DataError(f"{folder.name} holds {names}; name the one file to read")
+    return next(iter(blades.values()))
+
+
+def _family(path: Path) -> str | None:
+    match = _NUMBERED.fullmatch(path.stem)
+    return match[1] if match else None
