@@ -7,7 +7,8 @@
     sew             faces become one closed solid, names kept
     witnesses       why the solid is believed
     solid           all of it in one verb, `build_solid`
-    reread          a STEP file read back and compared
+    reread, confirm a STEP file read back, and compared with its solid
+    kernel, statics the door to the kernel, and its global settings
 
 cadquery takes seconds to import, so this file imports nothing.
 """

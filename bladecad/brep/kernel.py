@@ -13,7 +13,7 @@ def kernel(doing: str) -> Iterator[None]:
     """Turn whatever the kernel throws while `doing` something into a GeometryError."""
     try:
         yield
-    except BladecadError:
+    except (BladecadError, OSError):
         raise
     except Exception as error:
         raise GeometryError(

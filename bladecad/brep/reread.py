@@ -1,4 +1,4 @@
-"""A STEP file read back as another program would, and compared with the solid it came from."""
+"""A STEP file read back, as another program would."""
 
 from __future__ import annotations
 
@@ -26,7 +26,6 @@ from OCP.XCAFDoc import (
 
 from bladecad.arrays import Array, seal
 from bladecad.brep.kernel import kernel
-from bladecad.brep.solid import Solid
 from bladecad.brep.statics import statics
 from bladecad.brep.witnesses import volume
 from bladecad.errors import ExportError
@@ -86,27 +85,6 @@ def bounds(shape: cq.Shape) -> Array:
     """Return the smallest and the largest corner of the box around a shape, (2, 3) mm."""
     box = shape.BoundingBox()
     return np.array([[box.xmin, box.ymin, box.zmin], [box.xmax, box.ymax, box.zmax]])
-
-
-def confirm(solid: Solid, again: StepFile, *, volume: float = 1e-6, corner: float = 1e-4) -> None:
-    """Raise ExportError unless the file holds that very solid.
-
-    One valid solid, the same face names, volume within `volume` (relative), and both corners of
-    the box around it within `corner` mm.
-    """
-    error = abs(again.volume / solid.witnesses.volume - 1)
-    shift = float(np.abs(again.bounds - bounds(solid.shape)).max())
-    total = len(again.shape.Faces())
-    against = [
-        "" if again.solids == 1 else f"{again.solids} solids, not 1",
-        "" if again.valid else "the kernel's check fails",
-        "" if total == len(solid.faces) else f"{total} faces, not {len(solid.faces)}",
-        "" if set(again.faces) == set(solid.faces) else f"faces named {sorted(again.faces)}",
-        "" if error <= volume else f"volume {error:.3g} off, {volume:g} allowed",
-        "" if shift <= corner else f"box {shift:.3g} mm off, {corner:g} mm allowed",
-    ]
-    if any(against):
-        raise ExportError("STEP read back is another blade: " + "; ".join(filter(None, against)))
 
 
 def _document(path: str) -> Any:

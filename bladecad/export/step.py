@@ -65,20 +65,22 @@ def write_step(
     path : path
         Replaced when it exists; written beside first and then renamed.
     name : str
-        The product name that CAD programs show.
+        The product name that CAD programs show, any script.
     schema : {"AP242DIS", "AP214IS"}
         AP242 is today's; AP214 for older programs.
 
     Raises
     ------
     ExportError
-        If the folder is missing or closed to us, or the kernel does not write.
+        If the folder is missing or closed to us, the name is blank, or the kernel does not write.
 
     Notes
     -----
     cadquery's `exportStepMeta` writes an empty file for a solid at the root, and nests it as a
     child; hence this writer.
     """
+    if not name.strip():
+        raise ExportError("a STEP product needs a name; the kernel would give it its own")
     path = Path(path)
     beside = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
@@ -96,7 +98,7 @@ def _document(solid: Solid, name: str) -> Any:
     shapes = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
     colours = XCAFDoc_DocumentTool.ColorTool_s(document.Main())
     root = shapes.AddShape(solid.shape.wrapped, False)
-    _name(root, name)
+    _name(root, _directives(name))
     for face_name, face in solid.faces.items():
         label = shapes.AddSubShape(root, face.wrapped)
         _name(label, face_name)
@@ -128,6 +130,12 @@ def _write(writer: STEPCAFControl_Writer, path: Path) -> None:
 
 def _name(label: Any, text: str) -> None:
     TDataStd_Name.Set_s(label, TCollection_ExtendedString(text, True))
+
+
+def _directives(text: str) -> str:
+    """Spell what is not ASCII as ISO 10303-21 wants it, which the kernel leaves raw."""
+    wide = ("" if ord(c) < 128 else c.encode("utf-16-be").hex().upper() for c in text)
+    return "".join(f"\\X2\\{w}\\X0\\" if w else c for w, c in zip(wide, text, strict=True))
 
 
 def _colour(face_name: str) -> Quantity_Color:
