@@ -15,7 +15,7 @@ class Limits:
 
     Limits()                  what every real blade tried so far keeps
     Limits(planar=0)          ruled caps everywhere
-    Limits(volume=1e-6)       stricter about the third witness
+    Limits(volume=1e-8)       stricter about the third witness
 
     planar : an end section this close to a plane is dropped onto it and gets a plane cap; a tenth
         of a micron is far below any tolerance, and a plane is what CAM programs know best
@@ -23,14 +23,15 @@ class Limits:
         cover rounding, and it is the finest that CAD programs agree on
     edge   : the largest tolerance an edge may end with; the kernel starts at 1e-7
     blunt  : a cut-off edge thinner than this is neither sharp nor a face
-    volume : kernel against quadrature; the kernel integrates to 1e-7, its own error included
+    volume : kernel against quadrature; the kernel integrates to 1e-9, Gauss points to rounding, and
+        dropping an end onto its plane costs up to 1e-7
     """
 
     planar: float = 1e-4
     gap: float = 1e-5
     edge: float = 1e-5
     blunt: float = 1e-3
-    volume: float = 1e-5
+    volume: float = 1e-6
 
     def __post_init__(self) -> None:
         for field in fields(self):

@@ -49,7 +49,7 @@ def test_every_edge_and_end_gives_a_solid_with_the_expected_topology(
 def test_the_kernel_finds_the_volume_of_the_quadrature(
     ends: Ends, leading: bool, trailing: bool
 ) -> None:
-    assert built(ends, leading, trailing).witnesses.volume_error < 1e-7
+    assert built(ends, leading, trailing).witnesses.volume_error < 5e-9
 
 
 def test_the_quadrature_knows_a_blade_whose_volume_is_known() -> None:
@@ -149,7 +149,7 @@ def test_moving_then_building_is_building_then_moving(
         *(moved(side, rotation, np.array(shift)) for side in sides), volume=volume(*sides)
     )
     here = built(ends, False, True)
-    assert there.witnesses.volume == pytest.approx(here.witnesses.volume, rel=1e-7)
+    assert there.witnesses.volume == pytest.approx(here.witnesses.volume, rel=1e-8)
     assert there.witnesses.area == pytest.approx(here.witnesses.area, rel=1e-6)
     assert list(there.faces) == list(here.faces)
     grid = np.linspace(0, 1, 9)
