@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from contextlib import suppress
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any, Final, Literal, TypeAlias
@@ -90,7 +91,8 @@ def write_step(
     except OSError as error:
         raise ExportError(f"{path} cannot be written: {error.strerror}") from error
     finally:
-        beside.unlink(missing_ok=True)
+        with suppress(OSError):
+            beside.unlink()
 
 
 def _document(solid: Solid, name: str) -> Any:
@@ -113,7 +115,7 @@ def _transferred(document: Any, title: str) -> STEPCAFControl_Writer:
     if not writer.Transfer(document, STEPControl_StepModelType.STEPControl_AsIs):
         raise ExportError(f"the CAD kernel does not turn the solid into STEP for {title}")
     header = APIHeaderSection_MakeHeader(writer.ChangeWriter().Model())
-    header.SetName(TCollection_HAsciiString(title))
+    header.SetName(TCollection_HAsciiString(_directives(title)))
     header.SetAuthorValue(1, TCollection_HAsciiString(""))
     header.SetOrganizationValue(1, TCollection_HAsciiString(""))
     header.SetOriginatingSystem(TCollection_HAsciiString(f"bladecad {version('bladecad')}"))
@@ -134,8 +136,11 @@ def _name(label: Any, text: str) -> None:
 
 def _directives(text: str) -> str:
     """Spell what is not ASCII as ISO 10303-21 wants it, which the kernel leaves raw."""
-    wide = ("" if ord(c) < 128 else c.encode("utf-16-be").hex().upper() for c in text)
-    return "".join(f"\\X2\\{w}\\X0\\" if w else c for w, c in zip(wide, text, strict=True))
+    return "".join(c if ord(c) < 128 else _directive(ord(c)) for c in text)
+
+
+def _directive(code: int) -> str:
+    return f"\\X2\\{code:04X}\\X0\\" if code < 0x10000 else f"\\X4\\{code:08X}\\X0\\"
 
 
 def _colour(face_name: str) -> Quantity_Color:

@@ -77,9 +77,9 @@ def test_a_blade_of_13_x_64_poles_stays_below_400_kB(tmp_path: Path) -> None:
 
 def test_names_in_any_script_are_ascii_in_the_file_and_come_back(tmp_path: Path) -> None:
     for name in ("Läufer 羽根", "it's 100% \\ 'quoted'", "pale 🌀"):
-        write_step(built(), tmp_path / "blade.step", name=name)
-        assert (tmp_path / "blade.step").read_bytes().isascii()
-        assert read_step(tmp_path / "blade.step").product == name
+        write_step(built(), tmp_path / "Läufer.step", name=name)
+        assert (tmp_path / "Läufer.step").read_bytes().isascii()
+        assert read_step(tmp_path / "Läufer.step").product == name
 
 
 def _settings() -> dict[str, str]:
@@ -140,6 +140,8 @@ def test_a_path_that_cannot_be_written_is_an_export_error(tmp_path: Path) -> Non
         write_step(built(), tmp_path / "missing" / "blade.step", name="blade")
     with pytest.raises(ExportError, match="cannot be written: Is a directory"):
         write_step(built(), tmp_path, name="blade")
+    with pytest.raises(ExportError, match="cannot be written: Not a directory"):
+        write_step(built(), Path(__file__) / "blade.step", name="blade")
     with pytest.raises(ExportError, match="needs a name"):
         write_step(built(), tmp_path / "blade.step", name=" ")
     assert not list(tmp_path.iterdir())
