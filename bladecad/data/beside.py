@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from bladecad.arrays import Array
+from bladecad.data.draft import Draft
 from bladecad.data.sections import MM_PER, Axis, Row, Unit
 from bladecad.data.table import AXES, UNITS, read_table
 from bladecad.data.text import is_row, numbers, read_text, write_text
@@ -39,6 +41,20 @@ def write_hub_and_shroud(row: Row, path: Path) -> None:
     write_text(path.with_name(f"{path.stem}_hub_shroud.csv"), "\n".join(lines) + "\n")
 
 
+def told(draft: Draft, path: Path) -> Draft:
+    """Return the draft completed by what `Info.txt`, hub and shroud beside it say."""
+    unit, axis, count = read_info(path)
+    hub, shroud = loose_curves(path)
+    return replace(
+        draft,
+        unit=draft.unit or unit,
+        axis=draft.axis or axis,
+        blade_count=draft.blade_count or count,
+        hub=draft.hub if len(draft.hub) else hub,
+        shroud=draft.shroud if len(draft.shroud) else shroud,
+    )
+
+
 def loose_curves(path: Path) -> Curves:
     """Return hub and shroud from the files beside `path` that carry those words in their names.
 
@@ -65,7 +81,7 @@ def find(folder: Path, name: str, near: str = "") -> Path | None:
     files = [path for path in sorted(folder.iterdir()) if path.is_file()]
     exact = [path for path in files if path.name.lower() == base]
     ending = [path for path in files if base and path.name.lower().endswith(base)]
-    ending.sort(key=lambda path: -_common(path.name, near))
+    ending.sort(key=lambda path: -likeness(path.name, near))
     return next(iter(exact + ending), None)
 
 
@@ -93,7 +109,7 @@ def _curve_named(path: Path, word: str) -> Array:
     return read_curve(named[0]) if len(named) == 1 else np.empty((0, 2))
 
 
-def _common(a: str, b: str) -> int:
-    return next(
-        (i for i, (x, y) in enumerate(zip(a, b, strict=False)) if x != y), min(len(a), len(b))
-    )
+def likeness(a: str, b: str) -> int:
+    """Return how many first letters two names share."""
+    pairs = enumerate(zip(a, b, strict=False))
+    return next((i for i, (x, y) in pairs if x != y), min(len(a), len(b)))

@@ -22,7 +22,10 @@ class Block:
 
     def name(self, default: str) -> str:
         """Return the last heading, cleaned of its comment sign, else `default`."""
-        return " ".join(self.headings[-1].lstrip(" \t#!%*").split()) if self.headings else default
+        words = self.headings[-1].lstrip(" \t#!%*").split() if self.headings else []
+        return (
+            default if len(words) < 2 and "".join(words).strip("+").isdigit() else " ".join(words)
+        )
 
 
 def blocks(text: Text) -> tuple[Block, ...]:

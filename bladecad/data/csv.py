@@ -41,7 +41,7 @@ def read(text: Text) -> Draft:
     table = read_table(text)
     points, unit = table.values("x", "y", "z"), table.unit("x", "y", "z")
     hub, shroud = beside.hub_and_shroud(text.path, unit)
-    return Draft(
+    draft = Draft(
         "table of points",
         tuple(_sections(table, points)),
         unit=unit,
@@ -50,6 +50,7 @@ def read(text: Text) -> Draft:
         hub=hub,
         shroud=shroud,
     )
+    return draft if "section" in table.columns else beside.told(draft, text.path)
 
 
 def write_csv(sections: Sections, path: Path) -> None:

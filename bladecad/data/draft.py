@@ -21,7 +21,6 @@ from bladecad.data.sections import (
 )
 
 T = TypeVar("T")
-MM: Unit = "mm"
 Z: Axis = "z"
 
 
@@ -34,6 +33,7 @@ class Draft:
     hub, shroud : (n, 3) points, or (n, 2) axial position and radius
     cylindrical : True where the file gives radii and angles, so that any axis will do;
                   `sections` then stand about z
+    usual       : the unit taken where neither the file nor the user says one
     """
 
     format: str
@@ -45,6 +45,7 @@ class Draft:
     shroud: Array = field(default_factory=lambda: np.empty((0, 2)))
     cylindrical: bool = False
     notes: tuple[str, ...] = ()
+    usual: Unit = "mm"
 
     def noted(self, *notes: str) -> Draft:
         """Return the same draft with further notes for the user."""
@@ -53,7 +54,7 @@ class Draft:
 
 def settle(draft: Draft, path: Path, unit: Unit | None, axis: Axis | None) -> Sections:
     """Turn a draft into sections in mm; an option wins over the file, the file over the default."""
-    in_unit, unit_from, unit_notes = _choose("unit", "--units", draft.unit, unit, MM)
+    in_unit, unit_from, unit_notes = _choose("unit", "--units", draft.unit, unit, draft.usual)
     axis_said = None if draft.cylindrical and axis else draft.axis
     about, axis_from, axis_notes = _choose("axis", "--axis", axis_said, axis, Z)
     column = "xyz".index(about)

@@ -8,7 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from bladecad.data.draft import Draft
-from bladecad.data.formats import SUFFIXES, draft_of
+from bladecad.data.formats import FORMATS, SUFFIXES, draft_of, recognise
+from bladecad.data.text import read_text
 from bladecad.errors import DataError
 
 _NUMBERED = re.compile(r"(.*?)(\d+)")
@@ -20,32 +21,36 @@ def draft_of_blade(path: Path) -> Draft:
     family = siblings(path) if form.numbered and len(draft.sections) == 1 else []
     if len(family) < 2:
         return draft
-    drafts = [draft_of(member)[1] for member in family]
     note = f"{len(family)} sections, one a file: {family[0].name} to {family[-1].name}"
-    return joined([draft, *drafts], family, drafts).noted(note)
+    return draft_of_list(family).noted(note)
 
 
 def draft_of_list(paths: Sequence[Path]) -> Draft:
-    """Read several files as one blade, in the order given."""
-    drafts = [draft_of(path)[1] for path in paths]
-    return joined(drafts, paths, drafts)
+    """Read several files as one blade, in the order given, all in the most particular format."""
+    texts = [read_text(path) for path in paths]
+    forms = [recognise(text) for text in texts]
+    form = min(forms, key=FORMATS.index)
+    unlike = [path.name for path, own in zip(paths, forms, strict=True) if own is not form]
+    draft = _joined(paths, [form.read(text) for text in texts])
+    return draft.noted(*(f"{name}: read as {form.name}, like its fellows" for name in unlike))
 
 
-def joined(said: Sequence[Draft], paths: Sequence[Path], drafts: Sequence[Draft]) -> Draft:
-    """Put the sections of `drafts` together; all else is as the first of `said` has it."""
+def _joined(paths: Sequence[Path], drafts: Sequence[Draft]) -> Draft:
+    """Put all sections together; what else is said must agree."""
+    first = drafts[0]
     for path, draft in zip(paths, drafts, strict=True):
-        if (draft.unit, draft.axis) != (said[0].unit, said[0].axis):
+        if (draft.unit, draft.axis) != (first.unit, first.axis):
             raise DataError(
-                f"{path.name}: unit {draft.unit} and axis {draft.axis}, its fellows have "
-                f"{said[0].unit} and {said[0].axis}; bring them to one"
+                f"{path.name}: unit {draft.unit} and axis {draft.axis}, {paths[0].name} has "
+                f"{first.unit} and {first.axis}; bring them to one"
             )
     sections = tuple(
         replace(s, name=path.stem if len(draft.sections) == 1 else f"{path.stem} {s.name}")
         for path, draft in zip(paths, drafts, strict=True)
         for s in draft.sections
     )
-    notes = tuple(dict.fromkeys(note for draft in said for note in draft.notes))
-    return replace(said[0], sections=sections, notes=notes)
+    notes = dict.fromkeys(note for draft in drafts for note in draft.notes)
+    return replace(first, sections=sections, notes=tuple(notes))
 
 
 def siblings(path: Path) -> list[Path]:

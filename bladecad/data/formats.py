@@ -7,7 +7,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import final
 
-from bladecad.data import csv, geomturbo, turbogrid
+from bladecad.data import (
+    arcwise,
+    csv,
+    geomturbo,
+    ibl,
+    manufacturing,
+    points,
+    surfaces,
+    turbogrid,
+)
 from bladecad.data.draft import Draft
 from bladecad.data.text import Text, read_text
 from bladecad.errors import DataError
@@ -32,11 +41,20 @@ class Format:
     numbered: bool = False
 
 
+PLAIN = (".txt", ".dat", ".xyz", ".pts", ".asc", ".csv", ".fpd")
+
 FORMATS = (
     Format("AutoGrid geomTurbo", (".geomturbo",), geomturbo.recognises, geomturbo.read),
     Format("BladeGen .inf", (".inf",), turbogrid.recognises_inf, turbogrid.read_inf),
-    Format("table of points", (".csv", ".txt", ".dat"), csv.recognises, csv.read, numbered=True),
+    Format("Creo .ibl", (".ibl",), ibl.recognises, ibl.read),
+    Format("NASA manufacturing table", (".csv",), manufacturing.recognises, manufacturing.read),
+    Format("NASA surface table", (".dat", ".txt"), surfaces.recognises, surfaces.read),
+    Format(
+        "R*THETA table", (".txt", ".csv", ".dat"), arcwise.recognises, arcwise.read, numbered=True
+    ),
+    Format("table of points", PLAIN, csv.recognises, csv.read, numbered=True),
     Format("TurboGrid", (".curve", ".crv"), turbogrid.recognises, turbogrid.read),
+    Format("points", PLAIN, points.recognises, points.read, numbered=True),
 )
 
 SUFFIXES = tuple(dict.fromkeys(suffix for form in FORMATS for suffix in form.suffixes))

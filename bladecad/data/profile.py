@@ -89,7 +89,8 @@ class Profile:
         tangent = np.exp(1j * self.turning * (1 / 2 - s / self.length))
         across = np.sign(np.sin(phi)) * np.sqrt(np.maximum(1 - rate**2, 0))
         step = rho * (1j * across - rate) * tangent
-        return self.camber(s) + np.column_stack([step.real, step.imag])
+        xy: Array = np.column_stack([step.real, step.imag])
+        return self.camber(s) + xy
 
     def chord(self) -> float:
         """Return the distance between the leading and the trailing edge, mm."""
