@@ -64,12 +64,14 @@ def _plausible_size(sections: Sections) -> None:
     extent = size(np.vstack([s.points for s in sections.sections]))
     if SMALLEST <= extent <= LARGEST:
         return
-    unit = sections.source.unit
-    fits = [u for u, mm in MM_PER.items() if 10 <= extent / MM_PER[unit] * mm <= 2000]
+    read_as = sections.source.unit
+    likely = min(
+        MM_PER, key=lambda unit: abs(np.log(extent / MM_PER[read_as] * MM_PER[unit] / 100))
+    )
     raise DataError(
-        f"{_file(sections)}: the blade is {extent:.4g} mm large, blades are {SMALLEST:g} to "
-        f"{LARGEST:g} mm; wrong units? they were read as {unit}, try --units "
-        f"{' or '.join(fits) or 'another'}"
+        f"{_file(sections)}: the blade is {extent / 1000:.4g} m large, blades are "
+        f"{SMALLEST / 1000:g} to {LARGEST / 1000:g} m; wrong units? its numbers were read as {read_as}, "
+        f"try --units {likely}"
     )
 
 

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from bladecad.arrays import Array
 from bladecad.data import beside
 from bladecad.data.draft import Draft
-from bladecad.data.loops import arcs, loop, two_sides
+from bladecad.data.loops import arcs, edge_tags, loop, two_sides
 from bladecad.data.sections import Arc, Axis, Section, Sections
 from bladecad.data.table import AXES, Table, header_of, read_table
 from bladecad.data.text import Text, write_text
@@ -61,9 +61,11 @@ def write_csv(sections: Sections, path: Path) -> None:
     about, blades = sections.source.axis, sections.row.blade_count
     lines = [f"# {about} axial" + (f", {blades} blades" if blades else "")]
     sided = all(s.closed and arcs(s) for s in sections.sections)
-    lines += [f"section,{'side' if sided else 'edge'},x_mm,y_mm,z_mm"]
+    tagged = any(s.le or s.te for s in sections.sections)
+    mark = "side," if sided else "edge," if tagged else ""
+    lines += [f"section,{mark}x_mm,y_mm,z_mm"]
     for section in sections.sections:
-        lines += _side_rows(section) if sided else _loop_rows(section)
+        lines += _side_rows(section) if sided else _loop_rows(section, tagged)
     write_text(path, "\n".join(lines) + "\n")
     if len(sections.row.hub) or len(sections.row.shroud):
         beside.write_hub_and_shroud(sections.row, path)
@@ -119,12 +121,14 @@ def _side_rows(section: Section) -> list[str]:
     return [_row(section.name, side, point) for side, points in pair for point in points]
 
 
-def _loop_rows(section: Section) -> list[str]:
-    tags = {i: f"le{k + 1}" for k, i in enumerate(section.le)}
-    tags |= {i: f"te{k + 1}" for k, i in enumerate(section.te)}
-    rows = [_row(section.name, tags.get(i, ""), p) for i, p in enumerate(section.points)]
-    return [*rows, _row(section.name, "", section.points[0])] if section.closed else rows
+def _loop_rows(section: Section, tagged: bool) -> list[str]:
+    tags = edge_tags(section)
+    marks = [tags.get(i, "") if tagged else None for i in (*range(len(section.points)), -1)]
+    points = [*section.points, section.points[0]]
+    rows = [_row(section.name, mark, p) for mark, p in zip(marks, points, strict=True)]
+    return rows if section.closed else rows[:-1]
 
 
-def _row(name: str, mark: str, point: Array) -> str:
-    return f"{name},{mark},{point[0]:.10g},{point[1]:.10g},{point[2]:.10g}"
+def _row(name: str, mark: str | None, point: Array) -> str:
+    numbers = (f"{value:.10g}" for value in point)
+    return ",".join([name, *([] if mark is None else [mark]), *numbers])

@@ -73,6 +73,12 @@ def arcs(section: Section) -> tuple[Points, Points] | None:
     return first, second[::-1]
 
 
+def edge_tags(section: Section) -> dict[int, str]:
+    """Return the tags le1, le2, te1, te2 of a section's edge points."""
+    edges = (("le", section.le), ("te", section.te))
+    return {i: f"{edge}{k}" for edge, corners in edges for k, i in enumerate(corners, 1)}
+
+
 def size(points: Array) -> float:
     """Return the diagonal of the box round the points."""
     return float(np.linalg.norm(np.ptp(points, axis=0))) if len(points) else 0.0

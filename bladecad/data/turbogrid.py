@@ -16,7 +16,7 @@ from bladecad.arrays import Array, Vector
 from bladecad.data import beside
 from bladecad.data.blocks import Block, blocks
 from bladecad.data.draft import Draft
-from bladecad.data.loops import loop
+from bladecad.data.loops import edge_tags, loop
 from bladecad.data.sections import Section, Sections
 from bladecad.data.table import AXES, UNITS
 from bladecad.data.text import Text, fields, read_text, table, write_text
@@ -123,9 +123,8 @@ def _curve(profile: Path, keys: dict[str, str], word: str) -> Array:
 
 
 def _profile(section: Section) -> str:
-    tags = {i: f" le{k + 1}" for k, i in enumerate(section.le)}
-    tags |= {i: f" te{k + 1}" for k, i in enumerate(section.te)}
-    rows = [f"{_xyz(p)}{tags.get(i, '')}" for i, p in enumerate(section.points)]
+    tags = edge_tags(section)
+    rows = [f"{_xyz(p)} {tags.get(i, '')}".rstrip() for i, p in enumerate(section.points)]
     rows += [_xyz(section.points[0])] if section.closed else []
     return "\n".join([f"# {section.name}", *rows, ""])
 
