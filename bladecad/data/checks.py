@@ -70,8 +70,8 @@ def _plausible_size(sections: Sections) -> None:
     )
     raise DataError(
         f"{_file(sections)}: the blade is {extent / 1000:.4g} m large, blades are "
-        f"{SMALLEST / 1000:g} to {LARGEST / 1000:g} m; wrong units? its numbers were read as {read_as}, "
-        f"try --units {likely}"
+        f"{SMALLEST / 1000:g} to {LARGEST / 1000:g} m; wrong units? the numbers were "
+        f"read as {read_as}, try --units {likely}"
     )
 
 

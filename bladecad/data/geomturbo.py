@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+from itertools import islice
 from typing import final
 
 import numpy as np
@@ -42,32 +43,29 @@ def recognises(text: Text) -> bool:
     return any(line.lower().split()[:1] == ["ni_begin"] for line in text.lines)
 
 
-def read(text: Text, *, blade: int = 0) -> Draft:
-    """Read one blade of the first row, the main blade unless told otherwise."""
+def read(text: Text) -> Draft:
+    """Read the main blade of the first row."""
     root = _tree(text)
-    blades = list(root.all("niblade"))
-    shapes = list(blades[blade].all("nibladegeometry")) if blade < len(blades) else []
-    if not shapes:
-        raise DataError(
-            f"{text.path.name}: no blade geometry in {len(blades)} blades; export it again"
-        )
-    unit, scale = _unit(_value(text, shapes[0], "units") or _value(text, root, "units-factor"))
-    hub, shroud = (_channel(text, root, word) for word in ("hub", "shroud"))
+    row = next(root.all("nirow"), root)
+    blades = list(row.all("niblade"))
+    shape = next((g for blade in blades[:1] for g in blade.all("nibladegeometry")), None)
+    if shape is None:
+        raise DataError(f"{text.path.name}: its first row has no blade geometry; export it again")
+    unit, scale = _unit(text, _line(text, shape, "units") or _line(text, root, "units-factor"))
+    hub, shroud = (_channel(text, root, word) * scale for word in ("hub", "shroud"))
     draft = Draft(
         "AutoGrid geomTurbo",
-        tuple(_sections(text, shapes[0], scale)),
+        tuple(_sections(text, shape, scale)),
         unit=unit,
         axis="z",
-        blade_count=_count(text, root),
-        hub=hub * scale,
-        shroud=shroud * scale,
+        blade_count=_count(_value(text, row, "periodicity")),
+        hub=hub,
+        shroud=shroud,
     )
-    left_out = len(blades) - 1
-    return (
-        draft.noted(f"{left_out} further blade of the row (splitter) left out")
-        if left_out
-        else draft
-    )
+    if len(blades) > 1:
+        left_out = f"{len(blades) - 1} splitter of the row left out"
+        return draft.noted(f"the main blade was read; {left_out}")
+    return draft
 
 
 def _tree(text: Text) -> _Node:
@@ -86,32 +84,25 @@ def _tree(text: Text) -> _Node:
     return root
 
 
-def _value(text: Text, node: _Node, key: str) -> str | None:
-    found = (text.lines[i].split() for i in node.lines)
-    return next((words[1] for words in found if words[0].lower() == key and len(words) > 1), None)
+def _line(text: Text, node: _Node, key: str) -> int | None:
+    """Return the index of the block's own line that starts with the key."""
+    return next((i for i in node.lines if text.lines[i].lower().split()[0] == key), None)
 
 
-def _count(text: Text, root: _Node) -> int | None:
-    value = next((_value(text, row, "periodicity") for row in root.all("nirow")), None)
-    return int(value) if value and value.isdigit() else None
+def _value(text: Text, node: _Node, key: str) -> str:
+    i = _line(text, node, key)
+    return " ".join(text.lines[i].split()[1:]) if i is not None else ""
 
 
-def _unit(factor: str | None) -> tuple[Unit, float]:
-    """Return the unit of so many metres, and what is left of the factor."""
-    mm = 1000 * float(factor or 1)
+def _count(value: str) -> int | None:
+    return int(value) if value.isdigit() else None
+
+
+def _unit(text: Text, line: int | None) -> tuple[Unit, float]:
+    """Return the unit of so many metres, and what is left of the factor; metres if not said."""
+    mm = 1000 * (numbers(text, line, skip=1, count=1)[0] if line is not None else 1.0)
     same = [unit for unit, size in MM_PER.items() if abs(size - mm) < 1e-9 * mm]
     return (same[0], 1.0) if same else ("mm", mm)
-
-
-def _scaled(section: Section, scale: float) -> Section:
-    return Section(
-        section.name,
-        section.points * scale,
-        section.closed,
-        section.le,
-        section.te,
-        section.suction,
-    )
 
 
 def _sections(text: Text, shape: _Node, scale: float) -> Iterable[Section]:
@@ -123,7 +114,11 @@ def _sections(text: Text, shape: _Node, scale: float) -> Iterable[Section]:
             side = word
         elif word in ("xyz", "zrth") and side:
             count = int(numbers(text, next(lines, i))[0])
-            rows = tuple(next(lines, shape.lines[-1]) for _ in range(count))
+            rows = tuple(islice(lines, count))
+            if len(rows) < count:
+                raise DataError(
+                    f"{text.at(i)}: {count} points announced, {len(rows)} follow; export it again"
+                )
             sides[side].append(_cartesian(word, table(text, rows)) * scale)
     if not sides["suction"] or len(sides["suction"]) != len(sides["pressure"]):
         raise DataError(

@@ -149,9 +149,16 @@ def _decode(path: Path, raw: bytes) -> str:
 
 
 def _decimal_points(lines: list[str]) -> list[str]:
-    """Turn `1,5; 2,5` into `1.5 2.5`, where the whole file writes its numbers so."""
-    rows = [re.split(r"[;\s]+", line.strip(" \t;")) for line in lines if "," in line]
-    rows = [row for row in rows if len(row) > 1 and all(map(_DECIMAL_COMMA.fullmatch, row))]
-    if not rows or any(re.search(r"\d\.\d", line) for line in lines):
+    """Turn `1,5; 2` into `1.5; 2`, where the whole file writes its numbers so."""
+    if any(re.search(r"\d\.\d", line) for line in lines):
         return lines
-    return [line.replace(",", ".").replace(";", " ") for line in lines]
+    if not any(map(_has_decimal_commas, lines)):
+        return lines
+    return [line.replace(",", ".") for line in lines]
+
+
+def _has_decimal_commas(line: str) -> bool:
+    """Whether a comma stands within numbers that something else separates."""
+    found = re.split(r"\s*;\s*" if ";" in line else r"\s+", line.strip(" \t;"))
+    commas = [field for field in found if "," in field]
+    return len(found) > 1 and bool(commas) and all(map(_DECIMAL_COMMA.fullmatch, commas))

@@ -50,11 +50,11 @@ def read(text: Text) -> Draft:
         sections,
         unit=UNITS.get(keys.get("geometry units", "").lower()),
         axis=AXES.get(keys.get("axis of rotation", "").lower()),
-        blade_count=_count(keys),
+        blade_count=_count(keys, "number of blade sets"),
         hub=_curve(text.path, keys, "hub"),
         shroud=_curve(text.path, keys, "shroud"),
     )
-    if int(keys.get("number of blades per set", "1")) > 1:
+    if (_count(keys, "number of blades per set") or 1) > 1:
         return draft.noted("the row has splitters; only the blade of this profile was read")
     return draft
 
@@ -111,8 +111,8 @@ def _inf_of(profile: Path) -> Text | None:
     return found[0] if len(found) == 1 else None
 
 
-def _count(keys: dict[str, str]) -> int | None:
-    value = keys.get("number of blade sets", "")
+def _count(keys: dict[str, str], key: str) -> int | None:
+    value = keys.get(key, "")
     return int(value) if value.isdigit() else None
 
 

@@ -11,6 +11,7 @@ from scipy.spatial import cKDTree
 from bladecad.arrays import Array, Points
 from bladecad.data.read import read_sections
 from bladecad.data.sections import Sections
+from bladecad.errors import DataError
 
 
 def dense(points: Points, per_gap: int = 40) -> Points:
@@ -52,16 +53,21 @@ def test_the_turbogrid_profile_and_the_csv_profiles_are_the_same_points(shared_d
         np.testing.assert_allclose(a.points[:, ::-1], b.points, rtol=0, atol=1e-6)
 
 
-@pytest.mark.parametrize(("k", "median", "largest"), [(0, 0.06, 0.2)])
-def test_the_hub_section_is_the_same_line_in_every_notation(
-    shared_data: Path, k: int, median: float, largest: float
+@pytest.mark.parametrize(
+    ("name", "median", "largest"),
+    [("turbogrid", 0.13, 0.55), ("Rotor37_Autoblade.geomTurbo", 0.2, 0.65)],
+)
+def test_the_surface_is_the_same_in_every_notation(
+    shared_data: Path, name: str, median: float, largest: float
 ):
+    """As far as they are: each was made anew from the table by its program's own interpolation."""
     folder = shared_data / "nasa-rotor37"
-    ours = dense(read_sections(folder / "rotor37geometry.dat").sections[k].points)
-    for name in ("turbogrid", "Rotor37_Autoblade.geomTurbo"):
-        distance, _ = cKDTree(ours).query(read_sections(folder / name).sections[k].points)
-        assert np.median(distance) < median
-        assert distance.max() < largest
+    ours = [dense(s.points, 8) for s in read_sections(folder / "rotor37geometry.dat").sections]
+    span = CubicSpline(np.arange(13), np.array(ours))
+    theirs = np.vstack([s.points for s in read_sections(folder / name).sections])
+    distance = to_surface(theirs, span(np.linspace(0, 12, 241)))
+    assert np.median(distance) < median
+    assert distance.max() < largest
 
 
 def test_the_suction_side_is_named_alike(shared_data: Path, fixtures: Path):
@@ -85,22 +91,20 @@ def test_the_cold_blade_is_the_hot_one_untwisted(fixtures: Path, k: int, untwist
     turn = np.degrees(angle(moved[64] - moved[0]) - angle(cold[64, 1:] - cold[0, 1:]))
     assert turn == pytest.approx(-untwist, abs=0.2)
     mirrored = fitted(cold[:, 1:] * [1, -1], hot)
-    assert np.median(cKDTree(hot).query(mirrored)[0]) > 0.2
+    assert np.median(cKDTree(hot).query(mirrored)[0]) > 5 * np.median(distance)
 
 
 def test_the_edges_of_the_cold_blade_are_the_stated_circles(fixtures: Path):
     blade = read_sections(fixtures / "rotor37-cold")
     for section, r_le in ((blade.sections[0], 0.0099 * 25.4), (blade.sections[11], 0.0052 * 25.4)):
         edge = section.points[np.arange(-11, 12), 1:]
-        centre = least_squares(lambda c: np.linalg.norm(edge - c, axis=1) - r_le, edge.mean(0)).x
+        centre = centre_of(edge)
         np.testing.assert_allclose(np.linalg.norm(edge - centre, axis=1), r_le, rtol=1e-6)
 
 
 def test_a_manufacturing_table_without_its_fellow_asks_for_it(fixtures: Path, tmp_path: Path):
     file = tmp_path / "tp1337_points.csv"
     file.write_text((fixtures / "rotor37-cold" / "tp1337_points.csv").read_text())
-    from bladecad.errors import DataError
-
     with pytest.raises(DataError, match=r"its fellow, a table with columns section, radius, r_le"):
         read_sections(file)
 
@@ -121,3 +125,18 @@ def fitted(points: Array, curve: Array) -> Array:
 
 def angle(v: Array) -> float:
     return float(np.arctan2(v[0], v[1]))
+
+
+def centre_of(arc: Array) -> Array:
+    """Centre of the circle through points: |p|^2 = 2 c.p + const."""
+    lines = np.column_stack([2 * arc, np.ones(len(arc))])
+    return np.linalg.lstsq(lines, (arc**2).sum(axis=1))[0][:2]
+
+
+def to_surface(points: Points, grid: Array) -> Array:
+    """Distance to the tangent plane at the nearest node of a grid of points."""
+    u, t = np.gradient(grid, axis=(0, 1))
+    normal = np.cross(u, t).reshape(-1, 3)
+    _, nearest = cKDTree(grid.reshape(-1, 3)).query(points)
+    unit = normal[nearest] / np.linalg.norm(normal[nearest], axis=1, keepdims=True)
+    return np.abs(np.einsum("ij,ij->i", points - grid.reshape(-1, 3)[nearest], unit))

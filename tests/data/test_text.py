@@ -51,7 +51,7 @@ def test_encodings_and_line_ends_do_not_matter(tmp_path: Path, encoding: str, ne
 def test_decimal_commas_become_points_only_where_all_numbers_have_them(tmp_path: Path):
     file = tmp_path / "a.csv"
     file.write_text("x;y;z\n1,5;2,5;-3,25\n")
-    assert read_text(file).lines == ("x y z", "1.5 2.5 -3.25")
+    assert read_text(file).lines == ("x;y;z", "1.5;2.5;-3.25")
     file.write_text("x,y,z\n1,5,3\n1.5,2,3\n")
     assert read_text(file).lines[1] == "1,5,3"
 
