@@ -16,6 +16,7 @@ from bladecad.data.draft import Draft
 from bladecad.data.loops import loop
 from bladecad.data.table import header_of, read_table
 from bladecad.data.text import Text, table
+from bladecad.errors import DataError
 
 COLUMNS = ("x", "r*theta", "r")
 
@@ -31,6 +32,11 @@ def read(text: Text) -> Draft:
     columns = read_table(text) if recognises(text) else None
     rows = columns.values(*COLUMNS) if columns else table(text, blocks(text)[0].rows)
     x, arc, r = rows.T
+    if np.any(r <= 0):
+        raise DataError(
+            f"{text.path.name}: point {int(np.argmin(r)) + 1} has radius {r.min():g}, it must be "
+            "positive; are the columns X, R*THETA, R?"
+        )
     points = np.column_stack([r * np.cos(arc / r), -r * np.sin(arc / r), x])
     hub, shroud = beside.loose_curves(text.path)
     return Draft(

@@ -113,7 +113,7 @@ def _sections(text: Text, shape: _Node, scale: float) -> Iterable[Section]:
         if word in sides:
             side = word
         elif word in ("xyz", "zrth") and side:
-            count = int(numbers(text, next(lines, i))[0])
+            count = max(0, int(numbers(text, next(lines, i))[0]))
             rows = tuple(islice(lines, count))
             if len(rows) < count:
                 raise DataError(
