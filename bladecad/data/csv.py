@@ -131,4 +131,4 @@ def _loop_rows(section: Section, tagged: bool) -> list[str]:
 
 def _row(name: str, mark: str | None, point: Array) -> str:
     numbers = (f"{value:.10g}" for value in point)
-    return ",".join([name, *([] if mark is None else [mark]), *numbers])
+    return ",".join([name.replace(",", " "), *([] if mark is None else [mark]), *numbers])

@@ -22,7 +22,8 @@ def rewritten(file: Path, *changes: tuple[str, str]) -> Path:
 
 
 @pytest.mark.parametrize(
-    ("factor", "unit", "scale"), [("0.3048", "ft", 304.8), ("0.0254", "in", 25.4), ("0.5", "mm", 500)]
+    ("factor", "unit", "scale"),
+    [("0.3048", "ft", 304.8), ("0.0254", "in", 25.4), ("0.5", "mm", 500)],
 )
 def test_autogrid_units_are_metres_a_number(tmp_path: Path, factor: str, unit: str, scale: float):
     blade, file = synthetic_blade(2, 20, tagged=True), tmp_path / "a.geomTurbo"
