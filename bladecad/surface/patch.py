@@ -40,4 +40,4 @@ class SplinePatch:
         """Evaluate the patch or a partial derivative on the grid u x t, (len(u), len(t), 3)."""
         N = basis(self.knots_u, self.degree_u, u, du)
         M = basis(self.knots_t, self.degree_t, t, dt)
-        return np.einsum("ik,jl,klx->ijx", N, M, self.poles, optimize=True)
+        return np.asarray(np.einsum("ik,jl,klx->ijx", N, M, self.poles, optimize=True))
