@@ -10,6 +10,8 @@ BladecadError
 A message gives what, where, the number against its bound, and the next thing to try.
 """
 
+from __future__ import annotations
+
 
 class BladecadError(Exception):
     """Root of all errors that bladecad raises on purpose."""
@@ -20,7 +22,14 @@ class DataError(BladecadError):
 
 
 class FitError(BladecadError):
-    """No flow follows the lines closely enough."""
+    """No flow follows the lines closely enough.
+
+    best : the closest fit that was found, for the report; None where there was none
+    """
+
+    def __init__(self, message: str, *, best: object = None) -> None:
+        super().__init__(message)
+        self.best = best
 
 
 class GeometryError(BladecadError):

@@ -1,131 +1,100 @@
-"""Variable projection: the rates of the modes that let one spectrum follow all sections."""
+"""Variable projection: the rates of the modes with which a side is followed best."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import final
+from collections.abc import Sequence
 
 import numpy as np
-from scipy.linalg import lstsq, qr, solve_triangular
+from scipy.linalg import lstsq
 
-from bladecad.arrays import Array, Vector, seal
-from bladecad.fit.spectrum import Spectrum, decay
+from bladecad.arrays import Array, Vector
+from bladecad.fit.best_linear import BestLinear, best_linear, normal_equations
+from bladecad.fit.spectrum import Spectrum
 
-LOG_A = (np.log(8.0), 8.5)
+LOG_A = (float(np.log(8.0)), 8.5)
 K = (-0.9, 20.0)
-START_LOG_A, START_K = (np.log(30.0), np.log(500.0)), 0.4
-SERIES = 1e-4  # |k| below which d/dk of a mode is taken from its series
-RIDGE = 1e-11  # columns whose pivot falls below this share of the first are left out
+START_LOG_A, START_K = (float(np.log(30.0)), float(np.log(500.0))), 0.4
+LONGEST = 1.0  # largest change of log a or k in one step
+RESOLVED = 4  # samples next to an edge whose spacing bounds the rates there
+ENOUGH = 1e-4  # relative gain below which the search stops
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class Projection:
-    """A spectrum with the best coefficients for it.
-
-    spectrum     : Spectrum
-    coefficients : (n, d) float, for the columns of the data
-    rss          : sum of squared residuals
-    rank         : columns of the basis that the data can tell apart
-    steps        : iterations taken
-    """
-
-    spectrum: Spectrum
-    coefficients: Array
-    rss: float
-    rank: int
-    steps: int
-
-    def __post_init__(self) -> None:
-        seal(self, coefficients=(self.spectrum.size, None))
+def first_guess(le: int, te: int, degree: int, knots: Sequence[float] = ()) -> Spectrum:
+    """Spread the rates evenly over their usual range, a start from which the search converges."""
+    return Spectrum(degree, _spread(le), _spread(te), np.array(knots))
 
 
-def first_guess(le: int, te: int, degree: int, knots: Vector | None = None) -> Spectrum:
-    """Spread the rates evenly over their usual range, the start from which the search converges."""
-    knots = np.empty(0) if knots is None else knots
-    return Spectrum(degree, _spread(le), _spread(te), knots)
+def project(
+    start: Spectrum,
+    t: Vector,
+    blocks: Sequence[Array],
+    mix: Array | None = None,
+    *,
+    steps: int = 40,
+) -> tuple[Spectrum, ...]:
+    """Find the rates for which some coefficients follow the data best.
 
-
-def _spread(pairs: int) -> Array:
-    low, high = START_LOG_A
-    places = (np.arange(pairs) + 0.5) / max(pairs, 1)
-    return np.column_stack([np.exp(low + (high - low) * places), np.full(pairs, START_K)])
-
-
-def project(spectrum: Spectrum, t: Vector, Y: Array, *, steps: int = 40) -> Projection:
-    """Find the rates (a, k) for which some coefficients follow the data best.
-
-    Minimises min_C |Phi(a, k) C - Y|^2 over log a and k.
+    Minimises sum_b min_C |Phi(theta_b) C - Y_b|^2 over theta = (log a, k) of all pairs.
 
     Parameters
     ----------
-    spectrum : Spectrum
-        Start of the search; its degree, number of pairs and knots stay.
+    start : Spectrum
+        Its degree, number of pairs and knots stay.
     t : (N,) float
-    Y : (N, d) float, mm
-        All sections of a side side by side, 3 columns each, centred.
+    blocks : sequence of (N, d) float, mm
+        Y_b. One block of all sections side by side shares one spectrum; a block a section does not.
+    mix : (len(blocks), w) float, optional
+        theta_b = sum_w mix[b, w] theta_w. One column of ones by default; columns (1-u, u) let the
+        rates of a section vary linearly with its span u.
     steps : int
         Most Levenberg-Marquardt steps.
 
+    Returns
+    -------
+    tuple of Spectrum
+        One a block.
+
     Notes
     -----
-    Golub and Pereyra, SIAM J. Numer. Anal. 10 (1973), with Kaufman's Jacobian,
-    J_theta = -(1 - Q Q^T) (dPhi/dtheta) C; each theta moves two columns only, so J^T J is a sum
-    of 2 x 2 blocks of (D^T D) * (C C^T) and the data enter once a step.
+    Golub and Pereyra, SIAM J. Numer. Anal. 10 (1973), with Kaufman's form of the Jacobian.
     """
-    theta, damping = _pack(spectrum), 1e-3
-    best = _linear(spectrum, t, Y)
-    for step in range(steps if len(theta) else 0):
-        H, g = _normal_equations(best, t)
-        improved = False
+    mix = np.ones((len(blocks), 1)) if mix is None else mix
+    theta = _bounded(np.tile(_pack(start), (mix.shape[1], 1)), start, t)
+    best, damping = _all(theta, mix, start, t, blocks), 1e-3
+    for _ in range(steps if theta.size else 0):
+        H, g = _gathered(best, mix, t)
+        before = _rss(best)
         while damping < 1e8:
-            move = _damped(H, g, damping)
-            trial = _clip(theta + np.clip(move, -1.0, 1.0))
-            found = _linear(_unpack(trial, spectrum), t, Y)
-            if found[3] < best[3]:
-                improved = True
+            move = _damped(H, g, damping).reshape(theta.shape)
+            trial = _bounded(theta + np.clip(move, -LONGEST, LONGEST), start, t)
+            found = _all(trial, mix, start, t, blocks)
+            if _rss(found) < before:
                 break
             damping *= 8.0
-        if not improved:
+        else:
             break
-        gain = 1.0 - found[3] / best[3]
         theta, best, damping = trial, found, max(damping / 5.0, 1e-9)
-        if gain < 1e-4:
+        if _rss(best) > (1.0 - ENOUGH) * before:
             break
-    spectrum, C, _, rss, rank, *_ = best
-    return Projection(spectrum, C, rss, rank, step + 1 if len(theta) else 0)
+    return tuple(b.spectrum for b in best)
 
 
-def _linear(spectrum: Spectrum, t: Vector, Y: Array):  # type: ignore[no-untyped-def]
-    Phi = spectrum(t)
-    Q, R, order = qr(Phi, mode="economic", pivoting=True)
-    d = np.abs(np.diag(R))
-    rank = int(np.sum(d > RIDGE * d[0]))
-    Q = Q[:, :rank]
-    QY = Q.T @ Y
-    C = np.zeros((Phi.shape[1], Y.shape[1]))
-    C[order[:rank]] = solve_triangular(R[:rank, :rank], QY)
-    residual = Y - Q @ QY
-    return spectrum, C, residual, float(np.einsum("nd,nd->", residual, residual)), rank, Q
+def _all(
+    theta: Array, mix: Array, like: Spectrum, t: Vector, blocks: Sequence[Array]
+) -> list[BestLinear]:
+    return [best_linear(_unpack(w @ theta, like), t, Y) for w, Y in zip(mix, blocks, strict=True)]
 
 
-def _normal_equations(best, t):  # type: ignore[no-untyped-def]
-    spectrum, C, residual, _, _, Q = best
-    first = spectrum.degree + 1
-    D, rows = [], []
-    for a, k, tau in _modes(spectrum, t):
-        y1, y2 = decay(tau, k)
-        D += [np.column_stack([tau * (-y1 - k * y2), tau * (y1 - y2)])]
-        D += [np.column_stack([-0.5 * tau * y2, _dk(tau, k, y1, y2)])]
-        rows += [(first, first + 1)] * 2
-        first += 2
-    dPhi = np.concatenate(D, axis=1)
-    g = np.einsum("jd,jd->j", dPhi.T @ residual, C[np.ravel(rows)]).reshape(-1, 2).sum(axis=1)
-    dPhi = dPhi - Q @ (Q.T @ dPhi)
-    Cs = C[np.ravel(rows)]
-    H = (dPhi.T @ dPhi) * (Cs @ Cs.T)
-    m = len(rows)
-    return H.reshape(m, 2, m, 2).sum(axis=(1, 3)), g
+def _rss(best: Sequence[BestLinear]) -> float:
+    return sum(b.rss for b in best)
+
+
+def _gathered(best: Sequence[BestLinear], mix: Array, t: Vector) -> tuple[Array, Vector]:
+    """Normal equations for theta from those of every block."""
+    parts = [normal_equations(b, t) for b in best]
+    H = sum(np.kron(np.outer(w, w), Hb) for w, (Hb, _) in zip(mix, parts, strict=True))
+    g = sum(np.kron(w, gb) for w, (_, gb) in zip(mix, parts, strict=True))
+    return np.asarray(H), np.asarray(g)
 
 
 def _damped(H: Array, g: Vector, damping: float) -> Vector:
@@ -135,17 +104,10 @@ def _damped(H: Array, g: Vector, damping: float) -> Vector:
     return np.asarray(lstsq(scaled, g / scale)[0] / scale)
 
 
-def _modes(spectrum: Spectrum, t: Vector):  # type: ignore[no-untyped-def]
-    for a, k in spectrum.le:
-        yield a, k, a * t
-    for a, k in spectrum.te:
-        yield a, k, a * (1.0 - t)
-
-
-def _dk(tau: Vector, k: float, y1: Vector, y2: Vector) -> Vector:
-    if abs(k) < SERIES:
-        return np.asarray(-(tau**3) * np.exp(-tau) * (1.0 / 6.0 - k * tau**2 / 60.0))
-    return np.asarray((tau * y1 - y2) / (2.0 * k))
+def _spread(pairs: int) -> Array:
+    low, high = START_LOG_A
+    places = (np.arange(pairs) + 0.5) / max(pairs, 1)
+    return np.column_stack([np.exp(low + (high - low) * places), np.full(pairs, START_K)])
 
 
 def _pack(spectrum: Spectrum) -> Vector:
@@ -160,6 +122,12 @@ def _unpack(theta: Vector, like: Spectrum) -> Spectrum:
     return Spectrum(like.degree, modes[:cut], modes[cut:], like.knots)
 
 
-def _clip(theta: Vector) -> Vector:
-    pairs = theta.reshape(-1, 2)
-    return np.asarray(np.clip(pairs, (LOG_A[0], K[0]), (LOG_A[1], K[1])).ravel())
+def _bounded(theta: Array, like: Spectrum, t: Vector) -> Array:
+    """Keep every rate within reach of the samples: no mode decays within less than one step."""
+    steps = np.diff(t)
+    fastest = -np.log([steps[:RESOLVED].mean(), steps[-RESOLVED:].mean()])
+    high = np.repeat(np.minimum(fastest, LOG_A[1]), [len(like.le), len(like.te)])
+    pairs = theta.reshape(len(theta), -1, 2).copy()
+    pairs[:, :, 0] = np.clip(pairs[:, :, 0], LOG_A[0], np.maximum(high, LOG_A[0]))
+    pairs[:, :, 1] = np.clip(pairs[:, :, 1], *K)
+    return pairs.reshape(theta.shape)

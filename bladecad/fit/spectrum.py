@@ -10,8 +10,9 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from bladecad.arrays import Array, Vector, frozen, seal
+from bladecad.splines import basis
 
-CUBIC = 3  # powers of (t - knot) from here on keep x, x' and x'' continuous
+SMOOTH = 2  # derivatives continuous where the core is restarted
 
 
 @final
@@ -22,9 +23,10 @@ class Spectrum:
     degree  : degree p of the core, a polynomial block; A differentiates Legendre's polynomials
     le, te  : (m, 2) float; rate a and stiffness k of each pair of edge modes,
               y'' = -2 a y' - a^2 (1 + k) y, decaying away from t = 0 (le) and from t = 1 (te)
-    knots   : (q,) float; places inside (0, 1) where the core is restarted with x, x', x'' continuous
+    knots   : (q,) float; inside (0, 1), where the core is restarted with x, x', x'' continuous
 
-    State order: core, LE pairs, TE pairs, then the restarts. t runs from 0 (LE) to 1 (TE).
+    State order: core, LE pairs, TE pairs. t runs from 0 (LE) to 1 (TE). Without knots the core is
+    Legendre's polynomials; with knots it is the B-splines on them, the same space restarted.
     """
 
     degree: int
@@ -38,42 +40,46 @@ class Spectrum:
     @property
     def size(self) -> int:
         """Number n of states, and of coefficients a section and coordinate."""
-        powers = max(self.degree - CUBIC + 1, 0)
-        return self.degree + 1 + 2 * (len(self.le) + len(self.te)) + len(self.knots) * powers
+        return len(self.one)
+
+    @cached_property
+    def core(self) -> Vector:
+        """Knot vector of the core: each inner knot leaves x, x' and x'' continuous."""
+        ends = self.degree + 1
+        repeats = max(self.degree - SMOOTH, 1)
+        return np.repeat([0.0, *self.knots, 1.0], [ends, *[repeats] * len(self.knots), ends])
+
+    @cached_property
+    def one(self) -> Vector:
+        """(n,) float: the coefficients of the constant 1."""
+        core = np.eye(self.degree + 1)[0]
+        if len(self.knots):
+            core = np.ones(len(self.core) - self.degree - 1)
+        return frozen(np.concatenate([core, np.zeros(2 * (len(self.le) + len(self.te)))]))
 
     @cached_property
     def A(self) -> Array:
-        """(n, n) float: the system matrix between knots, block diagonal."""
-        n, p = self.size, self.degree + 1
-        A = np.zeros((n, n))
-        for j in range(p):
-            A[j, :j] = 2.0 * legendre.legder(np.eye(p)[j])[:j] if j else 0.0
-        for i, (a, k) in enumerate(self.le):
-            A[p + 2 * i : p + 2 * i + 2, p + 2 * i : p + 2 * i + 2] = pair_matrix(a, k)
-        p += 2 * len(self.le)
-        for i, (a, k) in enumerate(self.te):
-            A[p + 2 * i : p + 2 * i + 2, p + 2 * i : p + 2 * i + 2] = -pair_matrix(a, k)
-        return frozen(A)
+        """System matrix, block diagonal; with knots, of one segment between two of them."""
+        p = self.degree + 1
+        legendre_rows = [np.pad(legendre.legder(row)[:p], (0, 1))[:p] for row in np.eye(p)]
+        blocks: list[Array] = [2.0 * np.array(legendre_rows)]
+        blocks += [pair_matrix(a, k) for a, k in self.le]
+        blocks += [-pair_matrix(a, k) for a, k in self.te]
+        return frozen(_block_diagonal(blocks))
 
     def __call__(self, t: Vector, order: int = 0) -> Array:
         """State z(t), or its derivative of any order, (k, n): each family from its own end."""
         t = np.asarray(t, dtype=np.float64)
-        core = legendre.legvander(2.0 * t - 1.0, self.degree)
-        for _ in range(order):
-            core = core @ self.A[: self.degree + 1, : self.degree + 1].T
         modes = [pair(a, k, t, order) for a, k in self.le]
         modes += [pair(a, k, 1.0 - t, order) * (-1.0) ** order for a, k in self.te]
-        return np.concatenate([core, *modes, self._restarts(t, order)], axis=1)
+        return np.concatenate([self._core(t, order), *modes], axis=1)
 
-    def _restarts(self, t: Vector, order: int) -> Array:
-        """Truncated powers ((t - knot)_+)^j / (1 - knot)^j, j = 3 .. p, scaled to 1 at t = 1."""
-        j = np.arange(CUBIC, self.degree + 1)
-        ahead = np.maximum(t[:, None] - self.knots, 0.0)[:, :, None]
-        width = (1.0 - self.knots)[:, None]
-        falling = np.prod([np.maximum(j - i, 0) for i in range(order)], axis=0) if order else 1.0
-        powers = np.where(ahead > 0, ahead / width, 0.0) ** np.maximum(j - order, 0)
-        inside = (ahead > 0) | ((j <= order) & (ahead == 0) & (t[:, None, None] >= 1.0))
-        return np.asarray(powers * falling / width**order * inside).reshape(len(t), -1)
+    def _core(self, t: Vector, order: int) -> Array:
+        p = self.degree + 1
+        if len(self.knots):
+            return basis(self.core, self.degree, t, order)
+        derivative = np.linalg.matrix_power(self.A[:p, :p], order)
+        return np.asarray(legendre.legvander(2.0 * t - 1.0, self.degree) @ derivative.T)
 
 
 def pair_matrix(a: float, k: float) -> Array:
@@ -99,3 +105,11 @@ def decay(tau: Vector, k: float) -> tuple[Vector, Vector]:
     slow = np.exp(-(1.0 - m) * tau)
     fast = np.exp(-(1.0 + m) * tau)
     return 0.5 * (slow + fast), -0.5 * slow * np.expm1(-2.0 * m * tau) / m if m else slow * tau
+
+
+def _block_diagonal(blocks: list[Array]) -> Array:
+    ends = np.cumsum([0, *[len(b) for b in blocks]])
+    A = np.zeros((ends[-1], ends[-1]))
+    for block, first, last in zip(blocks, ends, ends[1:], strict=False):
+        A[first:last, first:last] = block
+    return A
