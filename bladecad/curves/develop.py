@@ -12,6 +12,7 @@ from bladecad.arrays import Array, Points, Vector, seal
 Kind = Literal["plane", "revolution"]
 PLANAR = 1e-4  # rms distance from the plane over the size: measured planes are flatter
 MERIDIAN_DEGREE = 6
+ACROSS = 0.1  # sine of the angle to the normal below which a direction is not in the plane
 
 
 @final
@@ -19,7 +20,7 @@ MERIDIAN_DEGREE = 6
 class Flat:
     """A section laid flat without bending angles.
 
-    points : (n, 2) float, mm; first column along the machine axis or the chord
+    points : (n, 2) float, mm; first column along the machine axis, outwards in a plane across it
     scale  : (n,) float; true length over flat length there, 1 in a plane
     kind   : "plane", or "revolution" for a surface of revolution about the machine axis
     misfit : rms distance of the points from that plane or surface, mm
@@ -79,8 +80,10 @@ def _size(points: Points) -> float:
 def _plane(points: Points, axis: int) -> Flat:
     centre, rows, extent = frame(points)
     normal = rows[2]
-    e1 = np.eye(3)[axis] - normal[axis] * normal
-    e1 = rows[0] if np.linalg.norm(e1) < 0.1 else e1 / np.linalg.norm(e1)
+    e1 = _in_plane(np.eye(3)[axis], normal)
+    outwards = np.where(np.arange(3) == axis, 0.0, centre) / np.linalg.norm(centre)
+    e1 = e1 if np.linalg.norm(e1) > ACROSS else _in_plane(outwards, normal)
+    e1 = rows[0] if np.linalg.norm(e1) < ACROSS else e1 / np.linalg.norm(e1)
     e2 = np.cross(normal, e1)
     away = np.eye(3)[axis] if abs(normal[axis]) > 0.9 else centre  # seen from outside the machine
     e2 = e2 if normal @ away >= 0 else -e2
@@ -88,12 +91,16 @@ def _plane(points: Points, axis: int) -> Flat:
     return Flat(flat, np.ones(len(points)), "plane", float(extent[2]))
 
 
+def _in_plane(direction: Vector, normal: Vector) -> Vector:
+    return np.asarray(direction - (direction @ normal) * normal)
+
+
 def _revolution(points: Points, axis: int) -> Flat:
     z, r, theta = cylindrical(points, axis)
     zr = np.column_stack([z, r])
     centre = zr.mean(axis=0)
     e, n = np.linalg.svd(zr - centre, full_matrices=False)[2]
-    e = e if e[0] >= abs(e[1]) or e[1] > 0 else -e  # inlet to outlet: with the axis, or outwards
+    e = e if e.sum() >= 0 else -e  # inlet to outlet: with the axis, or outwards
     x = (zr - centre) @ e
     fit = np.polynomial.Polynomial.fit(x, (zr - centre) @ n, MERIDIAN_DEGREE)
     misfit = float(np.sqrt(np.mean(((zr - centre) @ n - fit(x)) ** 2)))
