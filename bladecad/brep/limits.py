@@ -23,6 +23,7 @@ class Limits:
         cover rounding, and it is the finest that CAD programs agree on
     edge   : the largest tolerance an edge may end with; the kernel starts at 1e-7
     blunt  : a cut-off edge thinner than this is neither sharp nor a face
+    fold   : sides may lie in each other this deep; on a blunted nose they run side by side
     volume : kernel against quadrature; the kernel integrates to 1e-9, Gauss points to rounding, and
         dropping an end onto its plane costs up to 1e-7
     """
@@ -31,6 +32,7 @@ class Limits:
     gap: float = 1e-5
     edge: float = 1e-5
     blunt: float = 1e-3
+    fold: float = 2e-3
     volume: float = 1e-6
 
     def __post_init__(self) -> None:

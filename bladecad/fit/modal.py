@@ -7,7 +7,6 @@ from typing import final
 
 import numpy as np
 
-from bladecad.arrays import Array, Vector
 from bladecad.curves.sides import BladeLines
 from bladecad.fit.blade import BladeFit, Order, SpectrumKind
 from bladecad.fit.joint import JointFit, solve_joint
