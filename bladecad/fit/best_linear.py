@@ -36,7 +36,7 @@ def best_linear(spectrum: Spectrum, t: Vector, Y: Array) -> BestLinear:
     C = np.zeros((Phi.shape[1], Y.shape[1]))
     C[order[:rank]] = solve_triangular(R[:rank, :rank], QY)
     residual = np.asarray(Y - Q @ QY)
-    return BestLinear(spectrum, C, residual, float(np.vdot(residual, residual)), Q)
+    return BestLinear(spectrum, C, residual, float(np.vdot(residual, residual)), np.array(Q))
 
 
 def normal_equations(best: BestLinear, t: Vector) -> tuple[Array, Vector]:

@@ -1,4 +1,4 @@
-"""A whole blade as flows: both sides of all sections, what they are made of and how good they are."""
+"""A whole blade as flows: both sides of all sections, their system, and how good they are."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SpectrumKind = Literal["shared", "varying"]
 @final
 @dataclass(frozen=True)
 class Order:
-    """Size of a modal fit: pairs of modes at each edge, degree of the core, knots that restart it."""
+    """Size of a modal fit: pairs of modes at each edge, degree of the core, its knots."""
 
     le: int
     te: int

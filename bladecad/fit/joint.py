@@ -38,7 +38,7 @@ def edge_conditions(S: Spectrum, P: Spectrum, le: EdgeKind, te: EdgeKind) -> Arr
     """Rows B with B (C_S, C_P) = 0 where the sides share value, tangent and curvature, (q, n).
 
     X_S = X_P, X_S' = -X_P', X_S'' = X_P'' at t = 0 and 1: the sides leave an edge in opposite
-    directions with the same |dX/dt|, so the conditions hold at every u if they hold at the sections.
+    directions with the same |dX/dt|, so what holds at the sections holds at every u.
     """
     rows = [
         np.concatenate([S(end, r)[0], -((-1.0) ** r) * P(end, r)[0]])

@@ -1,4 +1,4 @@
-"""How far a fit is from the densified lines it was made for: between the points as well as at them."""
+"""How far a fit is from the densified lines: between the points as well as at them."""
 
 from __future__ import annotations
 

@@ -124,5 +124,6 @@ def _too_tight(best: BladeFit) -> str:
         f"no order meets {1e3 * best.tolerance:.3g} um: {best.order} comes closest, with "
         f'{1e3 * best.errors.largest:.3g} um on the {side} side of section "{best.lines.names[i]}" '
         f"at t = {t:.3f} ({best.reason}); ask for a --tolerance of "
-        f"{1.1 * best.errors.largest:.2g} mm, look at the points there, or fix --order to build it anyway"
+        f"{1.1 * best.errors.largest:.2g} mm, look at the points there, or fix the "
+        "--order to build it anyway"
     )

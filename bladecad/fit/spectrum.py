@@ -62,7 +62,7 @@ class Spectrum:
         """System matrix, block diagonal; with knots, of one segment between two of them."""
         p = self.degree + 1
         legendre_rows = [np.pad(legendre.legder(row)[:p], (0, 1))[:p] for row in np.eye(p)]
-        blocks: list[Array] = [2.0 * np.array(legendre_rows)]
+        blocks: list[Array] = [np.asarray(2.0 * np.array(legendre_rows), dtype=np.float64)]
         blocks += [pair_matrix(a, k) for a, k in self.le]
         blocks += [-pair_matrix(a, k) for a, k in self.te]
         return frozen(_block_diagonal(blocks))

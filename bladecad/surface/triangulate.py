@@ -15,7 +15,7 @@ from bladecad.surface.loft import graded
 
 Triangles = NDArray[np.int64]
 SIDES: tuple[SideName, SideName] = ("suction", "pressure")
-ALONG_T, ALONG_U, TWIST = 0.5, 0.25, 0.25  # shares of the chord error
+ALONG_T, ALONG_U, TWIST = 0.6, 0.25, 1.2  # shares of the chord error; twist is worst at a point
 MOST_ROUNDS = 8
 VOLUME = 1e-4  # relative
 LARGEST = 4_000_000  # triangles
@@ -180,7 +180,7 @@ def _strips(ids: Triangles) -> Triangles:
     a, b, c, d = ids[:-1, :-1], ids[:-1, 1:], ids[1:, 1:], ids[1:, :-1]
     both = np.stack([np.stack([a, b, c], -1), np.stack([a, c, d], -1)], axis=2).reshape(-1, 3)
     i, j, k = both.T
-    return both[(i != j) & (j != k) & (k != i)]
+    return np.asarray(both[(i != j) & (j != k) & (k != i)])
 
 
 def _outwards(vertices: Points, faces: dict[str, Triangles]) -> tuple[Points, dict[str, Triangles]]:

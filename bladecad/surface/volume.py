@@ -25,7 +25,7 @@ def volume(suction: SplinePatch, pressure: SplinePatch) -> float:
 
 
 def ruled(suction: SplinePatch, pressure: SplinePatch, axis: int, end: int) -> SplinePatch:
-    """The ruled face between the same border of both sides: axis 0 hub (0) or tip (-1), axis 1 LE, TE."""
+    """Rule a face between the same border of both sides: axis 0 hub, tip; axis 1 LE, TE."""
     rows = [np.take(side.poles, end, axis=axis) for side in (suction, pressure)]
     if axis == 0:
         return SplinePatch(np.stack(rows, 0), LINE, suction.knots_t, 1, suction.degree_t)
