@@ -1,0 +1,164 @@
+"""The model file: the flows themselves as JSON, read back bit by bit with numpy alone."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final, final, get_args
+
+import numpy as np
+
+from bladecad.arrays import Array
+from bladecad.errors import BladecadError, DataError
+from bladecad.export.blocks import blocks
+from bladecad.export.text import write_json
+from bladecad.fit.sidefit import Basis, SideFit
+from bladecad.fit.spectrum import Spectrum
+from bladecad.surface.blade import BladeSurface, EdgeKind, Law
+
+FAMILY: Final = "bladecad-model"
+VERSION: Final = 1
+START: Final = np.zeros(1)
+
+
+@final
+@dataclass(frozen=True)
+class Kind:
+    """How one kind of basis stands in the file.
+
+    basis : its class
+    write : its own numbers
+    read  : the basis from these numbers, bit by bit
+    """
+
+    basis: type
+    write: Callable[[Any], dict[str, object]]
+    read: Callable[[Mapping[str, Any]], Basis]
+
+
+def _write_spectrum(basis: Spectrum) -> dict[str, object]:
+    return {"degree": basis.degree, "le": basis.le, "te": basis.te, "knots": basis.knots}
+
+
+def _read_spectrum(entry: Mapping[str, Any]) -> Basis:
+    le, te = (np.array(entry[end], dtype=np.float64).reshape(-1, 2) for end in ("le", "te"))
+    return Spectrum(int(entry["degree"]), le, te, np.array(entry["knots"], dtype=np.float64))
+
+
+KINDS: Final[dict[str, Kind]] = {"spectrum": Kind(Spectrum, _write_spectrum, _read_spectrum)}
+
+
+def save_model(
+    surface: BladeSurface,
+    path: str | os.PathLike[str],
+    *,
+    provenance: Mapping[str, object] | None = None,
+) -> None:
+    """Write a blade surface as a model file; `docs/files.md` says what stands in it.
+
+    Parameters
+    ----------
+    surface : BladeSurface
+    path : path
+        Replaced when it exists; written beside first and then renamed.
+    provenance : mapping, optional
+        Where the blade came from; kept, never read back.
+
+    Raises
+    ------
+    ExportError
+        If the file cannot be written.
+    """
+    model = {
+        "schema": f"{FAMILY}/{VERSION}",
+        "unit": "mm",
+        "provenance": dict(provenance or {}),
+        "law": surface.law,
+        "edges": {"le": surface.le, "te": surface.te},
+        "span": surface.span,
+        "suction": _write_side(surface.suction),
+        "pressure": _write_side(surface.pressure),
+    }
+    write_json(model, path)
+
+
+def load_model(path: str | os.PathLike[str]) -> BladeSurface:
+    """Read a model file back: the same surface, bit by bit, in need of numpy alone.
+
+    Raises
+    ------
+    DataError
+        If the file is no model file, is broken, or was written by a newer bladecad.
+    """
+    model = _parsed(Path(path))
+    try:
+        return BladeSurface(
+            np.array(model["span"], dtype=np.float64),
+            _read_side(model["suction"]),
+            _read_side(model["pressure"]),
+            _one_of(Law, model["law"]),
+            _one_of(EdgeKind, model["edges"]["le"]),
+            _one_of(EdgeKind, model["edges"]["te"]),
+        )
+    except KeyError as error:
+        raise DataError(f"{path}: the model has no {error.args[0]!r}; export it again") from error
+    except (TypeError, ValueError, BladecadError) as error:
+        raise DataError(f"{path}: the model is broken: {error}; export it again") from error
+
+
+def _write_side(side: SideFit) -> dict[str, object]:
+    return {"bases": [_write_basis(basis) for basis in side.bases],
+            "C": side.coefficients,
+            "X0": side(START)[:, 0]}
+
+
+def _write_basis(basis: Basis) -> dict[str, object]:
+    for name, kind in KINDS.items():
+        if isinstance(basis, kind.basis):
+            return {"kind": name, **kind.write(basis), "z0": basis(START)[0], "flow": blocks(basis)}
+    raise DataError(f"a basis of {type(basis).__name__} has no place in the model file")
+
+
+def _read_side(side: Mapping[str, Any]) -> SideFit:
+    C: Array = np.array(side["C"], dtype=np.float64)
+    bases = tuple(_read_basis(entry) for entry in side["bases"])
+    if len(bases) not in (1, len(C)):
+        raise DataError(f"{len(bases)} bases for {len(C)} sections; one is needed, or one a section")
+    return SideFit(bases, C)
+
+
+def _read_basis(entry: Mapping[str, Any]) -> Basis:
+    if entry["kind"] not in KINDS:
+        raise DataError(f'a basis of kind "{entry["kind"]}" is unknown, only {", ".join(KINDS)}')
+    return KINDS[entry["kind"]].read(entry)
+
+
+def _one_of(choices: Any, value: Any) -> Any:
+    if value not in get_args(choices):
+        raise DataError(f'"{value}" is none of {", ".join(get_args(choices))}')
+    return value
+
+
+def _parsed(path: Path) -> dict[str, Any]:
+    try:
+        model = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise DataError(f"{path} cannot be read: {error.strerror}; check the path") from error
+    except UnicodeDecodeError as error:
+        raise DataError(f"{path} is no text, let alone a model file; export it again") from error
+    except json.JSONDecodeError as error:
+        raise DataError(
+            f"{path}, line {error.lineno}: {error.msg}; the file is cut off or edited, export it again"
+        ) from error
+    family, _, version = str(model.get("schema") if isinstance(model, dict) else "").partition("/")
+    if family != FAMILY or not version.isdigit():
+        raise DataError(f'{path} is no model file: its "schema" should be "{FAMILY}/{VERSION}"')
+    if int(version) > VERSION:
+        raise DataError(
+            f'{path} was written by a newer bladecad, "{family}/{version}"; this one reads up to '
+            f'"{FAMILY}/{VERSION}": update bladecad'
+        )
+    return dict(model)

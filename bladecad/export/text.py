@@ -1,0 +1,73 @@
+"""JSON that can be read: one line a row of numbers, no NaN, and a file that is whole or not there."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bladecad.errors import ExportError
+
+
+def write_json(value: object, path: str | os.PathLike[str]) -> None:
+    """Write a value as JSON, beside first and then renamed.
+
+    Raises
+    ------
+    ExportError
+        If the file cannot be written.
+    """
+    path = Path(path)
+    beside = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        beside.write_text(to_json(value) + "\n", encoding="utf-8")
+        beside.replace(path)
+    except OSError as error:
+        raise ExportError(f"{path} cannot be written: {error.strerror}") from error
+    finally:
+        with suppress(OSError):
+            beside.unlink()
+
+
+def to_json(value: object) -> str:
+    """Return a value as JSON; arrays as nested lists in full precision, NaN and infinity as null."""
+    return _text(_plain(value), "")
+
+
+def _plain(value: object) -> Any:
+    if isinstance(value, np.ndarray | np.generic):
+        return _plain(value.tolist())
+    if isinstance(value, Mapping):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, str) or value is None or isinstance(value, bool | int):
+        return value
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, Sequence):
+        return [_plain(item) for item in value]
+    return str(value)
+
+
+def _text(value: Any, indent: str) -> str:
+    """One line where nothing is nested, else one line an item."""
+    inner = indent + " "
+    if isinstance(value, dict) and _nested(value.values()):
+        rows = [f"{_word(key)}: {_text(item, inner)}" for key, item in value.items()]
+        return "{\n" + ",\n".join(inner + row for row in rows) + f"\n{indent}}}"
+    if isinstance(value, list) and _nested(value):
+        return "[\n" + ",\n".join(inner + _text(item, inner) for item in value) + f"\n{indent}]"
+    return _word(value)
+
+
+def _nested(items: Iterable[Any]) -> bool:
+    return any(isinstance(item, dict | list) for item in items)
+
+
+def _word(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False)
