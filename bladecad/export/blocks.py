@@ -27,7 +27,7 @@ def blocks(spectrum: Spectrum) -> list[Block]:
 
 def _whole_core(spectrum: Spectrum) -> Block:
     size = spectrum.degree + 1
-    return _block(0, (0.0, 1.0), 0.5, spectrum.A[:size, :size], spectrum(np.array([0.5]))[0, :size])
+    return block(0, (0.0, 1.0), 0.5, spectrum.A[:size, :size], spectrum(np.array([0.5]))[0, :size])
 
 
 def _segments(spectrum: Spectrum) -> list[Block]:
@@ -44,7 +44,7 @@ def _segments(spectrum: Spectrum) -> list[Block]:
         N = spectrum(t)[:, first : first + p + 1]
         M = np.linalg.solve(legendre.legvander(x, p), N[:-1]).T
         A = np.linalg.solve(M.T, (M @ D).T).T / (b - a)
-        found.append(_block(first, (float(a), float(b)), float(t[-1]), A, N[-1]))
+        found.append(block(first, (float(a), float(b)), float(t[-1]), A, N[-1]))
     return found
 
 
@@ -56,9 +56,10 @@ def _modes(spectrum: Spectrum) -> list[Block]:
         for back in range(2 * (count + last), 2 * last, -2):
             i, k = spectrum.size - back, len(spectrum.A) - back
             A = spectrum.A[k : k + 2, k : k + 2]
-            found.append(_block(i, (0.0, 1.0), t0, A, z[i : i + 2]))
+            found.append(block(i, (0.0, 1.0), t0, A, z[i : i + 2]))
     return found
 
 
-def _block(first: int, on: tuple[float, float], t0: float, A: Array, z: Vector) -> Block:
+def block(first: int, on: tuple[float, float], t0: float, A: Array, z: Vector) -> Block:
+    """Return one block, of the states from `first` on."""
     return {"states": [first, first + len(z)], "on": list(on), "t0": t0, "z": z, "A": A}

@@ -4,51 +4,21 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Final, final, get_args
+from typing import Any, Final, get_args
 
 import numpy as np
 
 from bladecad.arrays import Array
 from bladecad.errors import BladecadError, DataError
-from bladecad.export.blocks import blocks
+from bladecad.export.bases import START, read_basis, write_basis
 from bladecad.export.text import write_json
-from bladecad.fit.sidefit import Basis, SideFit
-from bladecad.fit.spectrum import Spectrum
+from bladecad.fit.sidefit import SideFit
 from bladecad.surface.blade import BladeSurface, EdgeKind, Law
 
 FAMILY: Final = "bladecad-model"
 VERSION: Final = 1
-START: Final = np.zeros(1)
-
-
-@final
-@dataclass(frozen=True)
-class Kind:
-    """How one kind of basis stands in the file.
-
-    basis : its class
-    write : its own numbers
-    read  : the basis from these numbers, bit by bit
-    """
-
-    basis: type
-    write: Callable[[Any], dict[str, object]]
-    read: Callable[[Mapping[str, Any]], Basis]
-
-
-def _write_spectrum(basis: Spectrum) -> dict[str, object]:
-    return {"degree": basis.degree, "le": basis.le, "te": basis.te, "knots": basis.knots}
-
-
-def _read_spectrum(entry: Mapping[str, Any]) -> Basis:
-    le, te = (np.array(entry[end], dtype=np.float64).reshape(-1, 2) for end in ("le", "te"))
-    return Spectrum(int(entry["degree"]), le, te, np.array(entry["knots"], dtype=np.float64))
-
-
-KINDS: Final[dict[str, Kind]] = {"spectrum": Kind(Spectrum, _write_spectrum, _read_spectrum)}
 
 
 def save_model(
@@ -110,30 +80,16 @@ def load_model(path: str | os.PathLike[str]) -> BladeSurface:
 
 
 def _write_side(side: SideFit) -> dict[str, object]:
-    return {"bases": [_write_basis(basis) for basis in side.bases],
-            "C": side.coefficients,
-            "X0": side(START)[:, 0]}
-
-
-def _write_basis(basis: Basis) -> dict[str, object]:
-    for name, kind in KINDS.items():
-        if isinstance(basis, kind.basis):
-            return {"kind": name, **kind.write(basis), "z0": basis(START)[0], "flow": blocks(basis)}
-    raise DataError(f"a basis of {type(basis).__name__} has no place in the model file")
+    bases = [write_basis(basis) for basis in side.bases]
+    return {"bases": bases, "C": side.coefficients, "X0": side(START)[:, 0]}
 
 
 def _read_side(side: Mapping[str, Any]) -> SideFit:
     C: Array = np.array(side["C"], dtype=np.float64)
-    bases = tuple(_read_basis(entry) for entry in side["bases"])
+    bases = tuple(read_basis(entry) for entry in side["bases"])
     if len(bases) not in (1, len(C)):
-        raise DataError(f"{len(bases)} bases for {len(C)} sections; one is needed, or one a section")
+        raise DataError(f"{len(bases)} bases for {len(C)} sections; it takes one, or one a section")
     return SideFit(bases, C)
-
-
-def _read_basis(entry: Mapping[str, Any]) -> Basis:
-    if entry["kind"] not in KINDS:
-        raise DataError(f'a basis of kind "{entry["kind"]}" is unknown, only {", ".join(KINDS)}')
-    return KINDS[entry["kind"]].read(entry)
 
 
 def _one_of(choices: Any, value: Any) -> Any:
@@ -151,7 +107,8 @@ def _parsed(path: Path) -> dict[str, Any]:
         raise DataError(f"{path} is no text, let alone a model file; export it again") from error
     except json.JSONDecodeError as error:
         raise DataError(
-            f"{path}, line {error.lineno}: {error.msg}; the file is cut off or edited, export it again"
+            f"{path}, line {error.lineno}: {error.msg}; the file is cut off or was edited, "
+            "export it again"
         ) from error
     family, _, version = str(model.get("schema") if isinstance(model, dict) else "").partition("/")
     if family != FAMILY or not version.isdigit():

@@ -1,4 +1,4 @@
-"""JSON that can be read: one line a row of numbers, no NaN, and a file that is whole or not there."""
+"""JSON that can be read: a row of numbers a line, no NaN, and a file that is whole or not there."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def write_json(value: object, path: str | os.PathLike[str]) -> None:
 
 
 def to_json(value: object) -> str:
-    """Return a value as JSON; arrays as nested lists in full precision, NaN and infinity as null."""
+    """Return a value as JSON; arrays as lists in full precision, NaN and infinity as null."""
     return _text(_plain(value), "")
 
 
