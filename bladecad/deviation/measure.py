@@ -116,7 +116,7 @@ def measure(
         feet.t,
         ~kept,
         tuple(s.name for s in sections.sections),
-        confirm(mesh, points, feet.distance),
+        confirm(mesh, points, feet),
     )
 
 

@@ -9,11 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bladecad.arrays import Points, Vector
+from bladecad.deviation.foot import Feet
 from bladecad.errors import GeometryError
 from bladecad.surface.triangulate import BladeMesh
 
 SAMPLE = 1000
 ROUNDING = 1e-6  # mm
+RIM = 1e-6  # of the span
 CAPS = ("HUB", "TIP")  # the end sections lie on them: they would hide the distance from the sides
 
 
@@ -24,7 +26,8 @@ class Referee:
 
     count        : points that trimesh measured
     disagreement : largest difference of the distances, mm
-    bound        : what the triangulation allows, its chord error, mm
+    bound        : what the triangulation allows, mm: its chord error, for a point whose foot lies
+                   on the border of hub or tip the error of that border
     """
 
     count: int
@@ -32,29 +35,30 @@ class Referee:
     bound: float
 
 
-def confirm(mesh: BladeMesh, points: Points, distance: Vector) -> Referee:
+def confirm(mesh: BladeMesh, points: Points, feet: Feet) -> Referee:
     """Let `trimesh.proximity` measure a sample of the points, the largest distances among them.
 
     Raises
     ------
     GeometryError
-        If it differs from the distance to the surface by more than the chord error of the mesh.
+        If it differs from the distance to the surface by more than the triangulation explains.
     """
     import trimesh
 
-    sample = _sample(distance)
+    sample = _sample(feet.distance)
     skin = [k for name, k in mesh.faces.items() if name not in CAPS]
     body = trimesh.Trimesh(mesh.vertices, np.concatenate(skin), process=False)
     measured = trimesh.proximity.closest_point(body, points[sample])[1]
-    away = np.abs(measured - np.abs(distance[sample]))
-    bound = mesh.chord_error + ROUNDING
-    if away.max() > bound:
-        worst = sample[int(away.argmax())]
+    away = np.abs(measured - np.abs(feet.distance[sample]))
+    on_rim = (feet.u[sample] <= RIM) | (feet.u[sample] >= 1.0 - RIM)
+    bound = np.where(on_rim, max(mesh.chord_error, mesh.rim_error), mesh.chord_error) + ROUNDING
+    k = int((away / bound).argmax())
+    if away[k] > bound[k]:
         raise GeometryError(
-            f"trimesh measures point {worst + 1} {1e3 * away.max():.3g} um otherwise than the "
-            f"surface, {1e3 * bound:.3g} um is allowed; ask for a smaller --chord-error"
+            f"trimesh measures point {sample[k] + 1} {1e3 * away[k]:.3g} um otherwise than the "
+            f"surface, {1e3 * bound[k]:.3g} um is allowed; ask for a smaller --chord-error"
         )
-    return Referee(len(sample), float(away.max()), bound)
+    return Referee(len(sample), float(away[k]), float(bound[k]))
 
 
 def _sample(distance: Vector) -> NDArray[np.intp]:

@@ -30,6 +30,7 @@ class BladeMesh:
     faces       : name of each face to its (k, 3) vertex numbers, counter-clockwise from outside
     u, t        : the parameters of the grid
     chord_error : largest distance between triangles and surface along its normal, measured, mm
+    rim_error   : largest distance of the border of hub and tip from its curve, measured, mm
     """
 
     vertices: Points
@@ -37,6 +38,7 @@ class BladeMesh:
     u: Vector
     t: Vector
     chord_error: float
+    rim_error: float
 
     def __post_init__(self) -> None:
         seal(self, vertices=(None, 3), u=(None,), t=(None,))
@@ -79,7 +81,7 @@ def triangulate(
         if 4 * len(u) * len(t) > LARGEST:
             break
         reached = max(measured(surface, s, u, t) for s in SIDES)
-        mesh = BladeMesh(*_assembled(surface, u, t), u, t, reached)
+        mesh = BladeMesh(*_assembled(surface, u, t), u, t, reached, rim(surface, t))
         missing = abs(mesh.volume / volume - 1.0) / VOLUME if volume else 0.0
         if reached <= chord_error and missing <= 1.0:
             return mesh
@@ -140,6 +142,22 @@ def measured(surface: BladeSurface, name: SideName, u: Vector, t: Vector) -> flo
         (third_u[1], third_t[0], (a + c + d) / 3.0),
     ]
     return max(_largest(surface, name, *middle) for middle in middles)
+
+
+def rim(surface: BladeSurface, t: Vector) -> float:
+    """Largest distance, across the curve, of the middles of the rim's edges from hub and tip, mm.
+
+    The rim bends within the surface too, which the distance along the normal does not see.
+    """
+    ends, tm = np.array([0.0, 1.0]), 0.5 * (t[1:] + t[:-1])
+    found = 0.0
+    for s in SIDES:
+        X, T = surface(s, ends, t), surface(s, ends, tm, 0, 1)
+        T = T / np.linalg.norm(T, axis=2, keepdims=True)
+        away = surface(s, ends, tm) - 0.5 * (X[:, 1:] + X[:, :-1])
+        across = away - T * np.einsum("utx,utx->ut", away, T)[:, :, None]
+        found = max(found, float(np.linalg.norm(across, axis=2).max()))
+    return found
 
 
 def _largest(surface: BladeSurface, name: SideName, u: Vector, t: Vector, flat: Array) -> float:
