@@ -47,8 +47,9 @@ def develop(points: Points, axis: int) -> Flat:
 
     Notes
     -----
-    A surface of revolution is rolled out conformally, (integral dm / r, theta) times the mean
-    radius, so that inscribed circles stay circles and angles stay angles.
+    A surface of revolution is rolled out conformally, (integral dm / r, -theta) times the mean
+    radius, so that inscribed circles stay circles and angles stay angles. Both are seen from the
+    same side: from outside on a cylinder, from the inlet on a disc.
     """
     plane = _plane(points, axis)
     if plane.misfit <= PLANAR * _size(points):
@@ -81,12 +82,12 @@ def _plane(points: Points, axis: int) -> Flat:
     centre, rows, extent = frame(points)
     normal = rows[2]
     e1 = _in_plane(np.eye(3)[axis], normal)
-    outwards = np.where(np.arange(3) == axis, 0.0, centre) / np.linalg.norm(centre)
+    outwards = np.where(np.arange(3) == axis, 0.0, centre)
+    outwards = outwards / (np.linalg.norm(outwards) or 1.0)
     e1 = e1 if np.linalg.norm(e1) > ACROSS else _in_plane(outwards, normal)
     e1 = rows[0] if np.linalg.norm(e1) < ACROSS else e1 / np.linalg.norm(e1)
     e2 = np.cross(normal, e1)
-    away = np.eye(3)[axis] if abs(normal[axis]) > 0.9 else centre  # seen from outside the machine
-    e2 = e2 if normal @ away >= 0 else -e2
+    e2 = e2 if normal @ (outwards - np.eye(3)[axis]) >= 0 else -e2  # as a rolled out surface
     flat = (points - centre) @ np.stack([e1, e2]).T
     return Flat(flat, np.ones(len(points)), "plane", float(extent[2]))
 
@@ -112,5 +113,5 @@ def _revolution(points: Points, axis: int) -> Flat:
     steps = 0.5 * (rate[1:] + rate[:-1]) * np.diff(fine)
     m = np.interp(x, fine, np.concatenate([[0.0], np.cumsum(steps)]))
     mean = float(r.mean())
-    flat = mean * np.column_stack([m - m.mean(), theta - theta.mean()])
+    flat = mean * np.column_stack([m - m.mean(), theta.mean() - theta])
     return Flat(flat, r / mean, "revolution", misfit)

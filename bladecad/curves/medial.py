@@ -56,15 +56,17 @@ def inscribed(loop: Points, tangents: Array) -> Medial:
     tree = cKDTree(loop)
     r = np.full(len(loop), 0.5 * float(np.linalg.norm(np.ptp(loop, axis=0))))
     q = np.arange(len(loop))
+    active = np.arange(len(loop))
     for _ in range(SHRINKS):
-        near = tree.query(loop + r[:, None] * n_in)[1]
-        d = loop[near] - loop
-        away = 2.0 * np.einsum("kd,kd->k", n_in, d)
-        ball = np.where(away > 0, np.einsum("kd,kd->k", d, d) / np.where(away > 0, away, 1.0), r)
-        shrunk = (near != np.arange(len(loop))) & (ball < r * (1.0 - SAME_BALL))
-        if not shrunk.any():
+        near = np.asarray(tree.query(loop[active] + r[active, None] * n_in[active])[1])
+        d = loop[near] - loop[active]
+        away = 2.0 * np.einsum("kd,kd->k", n_in[active], d)
+        ball = np.einsum("kd,kd->k", d, d) / np.where(away > 0, away, np.inf)
+        shrunk = (near != active) & (away > 0) & (ball < r[active] * (1.0 - SAME_BALL))
+        active = active[shrunk]
+        r[active], q[active] = ball[shrunk], near[shrunk]
+        if len(active) == 0:
             break
-        r, q = np.where(shrunk, ball, r), np.where(shrunk, near, q)
     centres = loop + r[:, None] * n_in
     return Medial(centres, r, q.astype(float), _opening(loop, centres, q))
 

@@ -7,7 +7,7 @@ from typing import Literal, final
 
 import numpy as np
 
-from bladecad.arrays import Array, Points, Vector
+from bladecad.arrays import Array, Mask, Points, Vector
 from bladecad.curves.corners import corners
 from bladecad.curves.develop import Flat, develop
 from bladecad.curves.line import Line
@@ -83,7 +83,7 @@ def trace(
     section: Section,
     axis: int,
     *,
-    keep: Array | None = None,
+    keep: Mask | None = None,
     find: bool = False,
     smooth: bool = False,
 ) -> Outline:
@@ -138,7 +138,7 @@ def _near(a: tuple[int, ...], b: tuple[int, ...]) -> bool:
     return any(min(b) - 2 <= i <= max(b) + 2 for i in a) or any(i in b for i in a)
 
 
-def _run(section: Section, first: int, last: int, keep: Array) -> Points:
+def _run(section: Section, first: int, last: int, keep: Mask) -> Points:
     """Points from one index to another in loop order, ends included."""
     n = len(section.points)
     count = (last - first) % n or n
@@ -148,7 +148,7 @@ def _run(section: Section, first: int, last: int, keep: Array) -> Points:
     return np.asarray(section.points[index[chosen]])
 
 
-def _two_lines(section: Section, breaks: list[tuple[int, ...]], flat: Flat, keep: Array) -> Outline:
+def _two_lines(section: Section, breaks: list[tuple[int, ...]], flat: Flat, keep: Mask) -> Outline:
     a, b = breaks
     first = Line(_run(section, a[-1], b[0], keep), closed=False)
     second = Line(_run(section, b[-1], a[0], keep), closed=False)
@@ -157,7 +157,7 @@ def _two_lines(section: Section, breaks: list[tuple[int, ...]], flat: Flat, keep
 
 
 def _one_line(
-    section: Section, edge: tuple[int, ...], named: list[int], flat: Flat, keep: Array, axis: int
+    section: Section, edge: tuple[int, ...], named: list[int], flat: Flat, keep: Mask, axis: int
 ) -> Outline:
     line = Line(_run(section, edge[-1], edge[0], keep), closed=False)
     named = [i for i in named if i not in edge]
@@ -166,7 +166,7 @@ def _one_line(
     return Outline(section, sides, (_kind(edge), "round"), flat)
 
 
-def _closed_line(section: Section, named: list[int], flat: Flat, keep: Array, axis: int) -> Outline:
+def _closed_line(section: Section, named: list[int], flat: Flat, keep: Mask, axis: int) -> Outline:
     line = Line(section.points[keep], closed=True)
     if len(named) == 2:
         a, b = (_station(line, section, i) for i in named)

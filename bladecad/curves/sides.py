@@ -8,7 +8,7 @@ from typing import Literal, final
 
 import numpy as np
 
-from bladecad.arrays import Array, Lines, Vector, seal
+from bladecad.arrays import Lines, Mask, Vector, seal
 from bladecad.curves.naming import Hand, Lead, first_is_left, leading_edge, suction_side
 from bladecad.curves.outline import EdgeKind, Outline, Track, trace
 from bladecad.data.sections import Sections
@@ -92,7 +92,7 @@ def split_sides(
     le: Lead | None = None,
     suction: Hand | None = None,
     edges: Edges = "file",
-    keep: Sequence[Array] | None = None,
+    keep: Sequence[Mask] | None = None,
 ) -> BladeLines:
     """Break every section at its edges and name edges and sides, the whole blade at once.
 
@@ -135,7 +135,7 @@ def split_sides(
     )
 
 
-def _outlines(sections: Sections, find: bool, keep: Sequence[Array] | None) -> list[Outline]:
+def _outlines(sections: Sections, find: bool, keep: Sequence[Mask] | None) -> list[Outline]:
     """Trace all sections; where their edges differ in kind, take the edges as round."""
     masks = keep or [np.ones(len(s.points), bool) for s in sections.sections]
     pairs = list(zip(sections.sections, masks, strict=True))
