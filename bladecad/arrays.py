@@ -13,6 +13,7 @@ Array: TypeAlias = NDArray[np.float64]
 Vector: TypeAlias = NDArray[np.float64]  # (n,)
 Points: TypeAlias = NDArray[np.float64]  # (n, 3), rows are points, mm
 Lines: TypeAlias = NDArray[np.float64]  # (m, n, 3), one line of points a section
+Mask: TypeAlias = NDArray[np.bool_]  # (n,)
 
 
 def frozen(values: ArrayLike) -> Array:

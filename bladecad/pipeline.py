@@ -22,10 +22,10 @@ from bladecad.fit.blade import BladeFit, ModelName, Order, SpectrumKind
 from bladecad.fit.left_out import LeftOut, Masks, left_out
 from bladecad.fit.matched import fit_matched
 from bladecad.fit.modal import prepare
-from bladecad.fit.order import fit_blade
+from bladecad.fit.order import fit_blade, met
 from bladecad.fit.segments import fit_segments
 from bladecad.surface.between import leave_one_out
-from bladecad.surface.blade import BladeSurface, Law
+from bladecad.surface.blade import BladeSurface, EdgeKind, Law
 from bladecad.surface.loft import Loft, loft
 from bladecad.surface.triangulate import BladeMesh, triangulate
 from bladecad.surface.volume import volume
@@ -35,6 +35,11 @@ if TYPE_CHECKING:
 
 Progress = Callable[[str], None]
 LOFT = 1e-3  # mm, distance of the solid from S
+EDGES: dict[ModelName, tuple[EdgeKind, EdgeKind]] = {
+    "paper": ("sharp", "blunt"),
+    "affine": ("sharp", "blunt"),
+    "second-order": ("sharp", "sharp"),
+}
 
 
 @final
@@ -215,21 +220,15 @@ def fit(lines: BladeLines, settings: Settings, progress: Progress = lambda _: No
                 progress=progress,
             )
         if settings.model == "segmented":
-            return fit_segments(prepare(lines), settings.tolerance, progress)
+            return met(fit_segments(prepare(lines), settings.tolerance, progress))
         return fit_matched(lines, model=settings.model, tolerance=settings.tolerance)
 
 
 def surface_of(fitted: BladeFit, law: Law = "spline") -> BladeSurface:
     """Blend the flows of a fit along the span.
 
-    Flows that were matched line by line do not meet at the edges: each edge becomes a face.
+    Flows matched line by line know nothing of each other: those of second order are held to the
+    shared edge points and meet with a corner, the others leave a gap at the trailing edge.
     """
-    joined = fitted.order is not None
-    return BladeSurface(
-        fitted.lines.span,
-        fitted.suction,
-        fitted.pressure,
-        law,
-        fitted.lines.le if joined else "blunt",
-        fitted.lines.te if joined else "blunt",
-    )
+    le, te = EDGES.get(fitted.model, (fitted.lines.le, fitted.lines.te))
+    return BladeSurface(fitted.lines.span, fitted.suction, fitted.pressure, law, le, te)

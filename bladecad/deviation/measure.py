@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple, final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bladecad.arrays import Points, Vector, seal
+from bladecad.arrays import Mask, Points, Vector, seal
 from bladecad.data.sections import Sections
 from bladecad.deviation.foot import project
 from bladecad.deviation.referee import Referee, confirm
@@ -46,10 +47,10 @@ class Deviation:
     distance: Vector
     section: NDArray[np.intp]
     index: NDArray[np.intp]
-    suction: NDArray[np.bool_]
+    suction: Mask
     u: Vector
     t: Vector
-    set_aside: NDArray[np.bool_]
+    set_aside: Mask
     names: tuple[str, ...]
     referee: Referee
 
@@ -84,7 +85,7 @@ def measure(
     surface: BladeSurface,
     mesh: BladeMesh,
     sections: Sections,
-    keep: list[NDArray[np.bool_]] | None = None,
+    keep: Sequence[Mask] | None = None,
 ) -> Deviation:
     """Measure every point of the input against the surface; trimesh confirms a sample.
 
@@ -94,7 +95,7 @@ def measure(
         The blade and its triangulation.
     sections : Sections
         What was measured.
-    keep : list of (n,) bool, optional
+    keep : sequence of (n,) bool, optional
         False for points that were set aside; they are measured but do not count.
 
     Raises

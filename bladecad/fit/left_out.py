@@ -6,10 +6,9 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from bladecad.arrays import Points, Vector
+from bladecad.arrays import Mask, Points, Vector
 from bladecad.curves.sides import BladeLines
 from bladecad.data.sections import Sections
 from bladecad.fit.blade import BladeFit
@@ -17,7 +16,7 @@ from bladecad.fit.modal import fit_spectra, prepare
 from bladecad.fit.sidefit import Basis
 from bladecad.fit.spectrum import Spectrum
 
-Masks = Sequence[NDArray[np.bool_]]
+Masks = Sequence[Mask]
 DENSE = 2001
 
 

@@ -6,8 +6,8 @@ from typing import Literal
 
 import numpy as np
 
-from bladecad.arrays import Lines, Vector
-from bladecad.curves.sides import BladeLines
+from bladecad.arrays import Array, Lines, Points, Vector
+from bladecad.curves.sides import BladeLines, Side
 from bladecad.errors import FitError
 from bladecad.fit.blade import BladeFit
 from bladecad.fit.differences import Scheme
@@ -15,9 +15,11 @@ from bladecad.fit.judge import SIDES, Bench, judge
 from bladecad.fit.matching import MatchingFit, identify
 from bladecad.fit.orbit import Orbit
 from bladecad.fit.samples import shared_parameters
+from bladecad.fit.second_order import Ends
 from bladecad.fit.sidefit import SideFit
 
 MatchedModel = Literal["paper", "affine", "second-order"]
+FURTHEST = 0.1  # of the length of a side: beyond, it is no blade any more
 
 
 def fit_matched(
@@ -25,54 +27,65 @@ def fit_matched(
 ) -> BladeFit:
     """Fit every line of a blade by matching derivatives, eqs. (2)-(7) and their descendants.
 
-    The sides do not know each other: they meet neither at the leading nor at the trailing edge.
+    "second-order" is held to the first and last point of each side, so that the sides meet at both
+    edges, with a corner; the others start at the leading edge and end where they end.
 
     Raises
     ------
     FitError
-        If a flow leaves the floats; its divergence is real, the model cannot follow that edge.
+        If a flow strays from the blade by more than a tenth of its length, or leaves the floats:
+        no solid can be made of it. Its `best` is the fit, where it has numbers.
     """
-    fits = [
-        _side(lines.sample(s, _places(lines, s)), _places(lines, s), model, scheme) for s in SIDES
+    sides = [
+        side_of([_line(row, _places(lines, s), model, scheme) for row in _rows(lines, s)])
+        for s in SIDES
     ]
-    sides = [side_of(found) for found in fits]
     for name, side in zip(SIDES, sides, strict=True):
-        _finite(side, name, model, lines)
+        _refuse_divergence(side, name, model, lines)
     errors = judge(Bench.of(lines), sides[0], sides[1])
-    everyone = [fit for found in fits for fit in found]
-    return BladeFit(
-        model,
-        None,
-        sides[0],
-        sides[1],
-        lines,
-        errors,
-        tolerance,
-        min(fit.rank for fit in everyone),
-        sides[0].bases[0].size,
-        max(fit.condition for fit in everyone),
+    size = sides[0].bases[0].size
+    fit = BladeFit(
+        model, None, sides[0], sides[1], lines, errors, tolerance, size, size, 1.0,
         errors.refusal(tolerance),
-    )
+    )  # fmt: skip
+    if errors.largest > FURTHEST * lines.lengths.max():
+        side_name, i, t = errors.worst()
+        raise FitError(
+            f"the {model} model strays {errors.largest:.3g} mm from the {side_name} side of "
+            f'section "{lines.names[i]}" at t = {t:.3f}; no solid can be made of it, '
+            "use --model modal",
+            best=fit,
+        )
+    return fit
 
 
 def side_of(fits: list[MatchingFit]) -> SideFit:
-    """Take the flows of one side as bases and coefficients."""
-    orbits = tuple(Orbit(fit.flow.A, fit.flow.z0) for fit in fits)
-    return SideFit(orbits, np.array([fit.flow.C.T for fit in fits]))
+    """Take the flows of one side as bases and coefficients, states filled up to one number."""
+    most = max(len(fit.flow.z0) for fit in fits)
+    orbits = tuple(Orbit(_filled(f.flow.A, most, most), _filled(f.flow.z0, most)) for f in fits)
+    return SideFit(orbits, np.array([_filled(fit.flow.C.T, most, 3) for fit in fits]))
 
 
-def _places(lines: BladeLines, side: str) -> Vector:
+def _filled(values: Array, *shape: int) -> Array:
+    return np.pad(values, [(0, n - k) for n, k in zip(shape, np.shape(values), strict=True)])
+
+
+def _places(lines: BladeLines, side: Side) -> Vector:
     """Parameters at which all sections are taken, as dense as their points."""
-    return shared_parameters(lines.parameters("suction" if side == "suction" else "pressure"), 1)
+    return shared_parameters(lines.parameters(side), 1)
 
 
-def _side(points: Lines, t: Vector, model: MatchedModel, scheme: Scheme) -> list[MatchingFit]:
-    return [identify(row, np.diff(t), model=model, scheme=scheme) for row in points]
+def _rows(lines: BladeLines, side: Side) -> Lines:
+    return lines.sample(side, _places(lines, side))
 
 
-def _finite(side: SideFit, name: str, model: str, lines: BladeLines) -> None:
-    t = np.linspace(0.0, 1.0, 101)
-    wild = ~np.isfinite(side(t)).all(axis=(1, 2))
+def _line(points: Points, t: Vector, model: MatchedModel, scheme: Scheme) -> MatchingFit:
+    ends = Ends(start=points[0], end=points[-1]) if model == "second-order" else None
+    return identify(points, np.diff(t), model=model, scheme=scheme, ends=ends)
+
+
+def _refuse_divergence(side: SideFit, name: Side, model: str, lines: BladeLines) -> None:
+    wild = ~np.isfinite(side(np.linspace(0.0, 1.0, 101))).all(axis=(1, 2))
     if wild.any():
         raise FitError(
             f'section "{lines.names[int(wild.argmax())]}", {name} side: the flow of the {model} '

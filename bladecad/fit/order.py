@@ -66,9 +66,15 @@ def fit_blade(
     best = climb(data, tolerance, spectrum, progress)
     if best.reason and segments:
         best = min(best, fit_segments(data, tolerance, progress), key=_shortfall)
-    if best.reason:
-        raise FitError(_too_tight(best), best=best)
+    met(best)
     return best if best.model == "segmented" else trim(data, best, spectrum, progress)
+
+
+def met(fit: BladeFit) -> BladeFit:
+    """Return a fit that meets its tolerance, refuse another with its numbers."""
+    if fit.reason:
+        raise FitError(_too_tight(fit), best=fit)
+    return fit
 
 
 def climb(data: Data, tolerance: float, spectrum: SpectrumKind, progress: Progress) -> BladeFit:
