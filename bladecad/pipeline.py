@@ -166,7 +166,8 @@ def build(
         sections, found, keep = load(path, settings)
         lines = split(sections, settings, keep)
     with clock.step("fit"):
-        fitted = fit(lines, settings, progress)
+        scatter = noise(sections)
+        fitted = fit(lines, settings, scatter, progress)
     with clock.step("judge"):
         surface = surface_of(fitted, settings.law)
         between = leave_one_out(surface)
@@ -188,7 +189,7 @@ def build(
         deviation = measure(surface, mesh, sections, keep)
     return Build(
         settings, sections, found, lines, fitted, surface, lofted, solid, mesh, deviation,
-        between, alone, noise(sections), clock.seconds,
+        between, alone, scatter, clock.seconds,
     )  # fmt: skip
 
 
@@ -206,8 +207,13 @@ def split(sections: Sections, settings: Settings, keep: Masks) -> BladeLines:
     )
 
 
-def fit(lines: BladeLines, settings: Settings, progress: Progress = lambda _: None) -> BladeFit:
-    """Fit the lines with the model of the settings."""
+def fit(
+    lines: BladeLines,
+    settings: Settings,
+    scatter: float = 0.0,
+    progress: Progress = lambda _: None,
+) -> BladeFit:
+    """Fit the lines with the model of the settings; `scatter` is the noise of the points, mm."""
     from threadpoolctl import threadpool_limits
 
     with threadpool_limits(1):  # many small factorisations: threads only wait for each other
@@ -217,6 +223,7 @@ def fit(lines: BladeLines, settings: Settings, progress: Progress = lambda _: No
                 tolerance=settings.tolerance,
                 order=settings.order,
                 spectrum=settings.spectrum,
+                noise=scatter,
                 progress=progress,
             )
         if settings.model == "segmented":

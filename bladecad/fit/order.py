@@ -21,6 +21,7 @@ LADDER = (
 FAR, VERY_FAR = 3.0, 12.0  # times the tolerance: take two, or three, rungs at once
 STALLED = 4  # rungs without a better fit after which the data, not the order, set the limit
 BETTER = 0.9
+SIGMAS = 3.0  # a tolerance below this many times the noise is below what the points can say
 
 Progress = Callable[[str], None]
 
@@ -31,7 +32,7 @@ def fit_blade(
     tolerance: float,
     order: Order | None = None,
     spectrum: SpectrumKind = "shared",
-    segments: bool = True,
+    noise: float = 0.0,
     progress: Progress = lambda _: None,
 ) -> BladeFit:
     """Fit both sides of a blade by flows from edge to edge.
@@ -45,8 +46,9 @@ def fit_blade(
         Fixed; otherwise the smallest that meets the tolerance is searched.
     spectrum : {"shared", "varying"}
         One spectrum for all sections of a side, or rates that vary linearly with span.
-    segments : bool
-        Restart the core at knots where no order without them meets the tolerance.
+    noise : float
+        mm, scatter of the points. Where no order meets the tolerance the core is restarted at
+        knots, but not to follow points that scatter by a third of the tolerance or more.
     progress : callable
         Told what is being tried.
 
@@ -64,16 +66,16 @@ def fit_blade(
     if order is not None:
         return fit_order(data, order, tolerance, spectrum=spectrum)
     best = climb(data, tolerance, spectrum, progress)
-    if best.reason and segments:
+    if best.reason and SIGMAS * noise < tolerance:
         best = min(best, fit_segments(data, tolerance, progress), key=_shortfall)
-    met(best)
+    met(best, noise)
     return best if best.model == "segmented" else trim(data, best, spectrum, progress)
 
 
-def met(fit: BladeFit) -> BladeFit:
+def met(fit: BladeFit, noise: float = 0.0) -> BladeFit:
     """Return a fit that meets its tolerance, refuse another with its numbers."""
     if fit.reason:
-        raise FitError(_too_tight(fit), best=fit)
+        raise FitError(_too_tight(fit, noise), best=fit)
     return fit
 
 
@@ -124,12 +126,17 @@ def _shortfall(fit: BladeFit) -> float:
     return errors.largest * (10.0 if fit.reason and errors.largest <= fit.tolerance else 1.0)
 
 
-def _too_tight(best: BladeFit) -> str:
+def _too_tight(best: BladeFit, noise: float) -> str:
     side, i, t = best.errors.worst()
+    floor = (
+        f"the points scatter by {1e3 * noise:.2g} um, and to follow them closer would be to follow "
+        "the noise; "
+        if SIGMAS * noise >= best.tolerance
+        else ""
+    )
     return (
         f"no order meets {1e3 * best.tolerance:.3g} um: {best.order} comes closest, with "
         f'{1e3 * best.errors.largest:.3g} um on the {side} side of section "{best.lines.names[i]}" '
-        f"at t = {t:.3f} ({best.reason}); ask for a --tolerance of "
-        f"{1.1 * best.errors.largest:.2g} mm, look at the points there, or fix the "
-        "--order to build it anyway"
+        f"at t = {t:.3f}; {floor}ask for a --tolerance of {1.1 * best.errors.largest:.2g} mm, look "
+        "at the points there, or fix the --order to build it anyway"
     )
