@@ -103,7 +103,7 @@ def _revolution(points: Points, axis: int) -> Flat:
     e, n = np.linalg.svd(zr - centre, full_matrices=False)[2]
     e = e if e.sum() >= 0 else -e  # inlet to outlet: with the axis, or outwards
     x = (zr - centre) @ e
-    fit = np.polynomial.Polynomial.fit(x, (zr - centre) @ n, MERIDIAN_DEGREE)
+    fit, _ = np.polynomial.Polynomial.fit(x, (zr - centre) @ n, MERIDIAN_DEGREE, full=True)
     misfit = float(np.sqrt(np.mean(((zr - centre) @ n - fit(x)) ** 2)))
     fine = np.linspace(x.min(), x.max(), 2001)
     radius = centre[1] + e[1] * fine + n[1] * fit(fine)

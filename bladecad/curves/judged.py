@@ -12,7 +12,7 @@ from scipy.spatial import cKDTree
 from bladecad.arrays import Array, Vector
 from bladecad.curves.develop import Flat, develop, frame
 from bladecad.curves.repair import signed_area
-from bladecad.curves.residuals import Mask, Residuals, Stretches, residuals, runs
+from bladecad.curves.residuals import TINY, Mask, Residuals, Stretches, residuals, runs
 from bladecad.data.loops import size
 from bladecad.data.sections import Section
 
@@ -81,7 +81,7 @@ class Judged:
         long = long if long[0] >= 0 else -long
         placed = centred @ np.array([[long[0], -long[1]], [long[1], long[0]]]) / self.size
         T = np.roll(placed, -1, axis=0) - np.roll(placed, 1, axis=0)
-        T *= np.sign(signed_area(placed)) / np.linalg.norm(T, axis=1)[:, None]
+        T *= np.sign(signed_area(placed)) / np.maximum(np.linalg.norm(T, axis=1), TINY)[:, None]
         return np.hstack([placed, NORMAL_WEIGHT * T])
 
     @cached_property

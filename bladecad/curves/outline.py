@@ -203,7 +203,10 @@ def _pairs(line: Line, axis: int) -> tuple[Vector, Vector]:
     The shorter way round, except on an open line, where the way round is along the line.
     """
     s = line.densified(DENSE)
-    loop = develop(line(s), axis).points
+    dense = line(s)
+    if np.array_equal(dense[0], dense[-1]):  # a sharp edge: both sides end in its point
+        s, dense = s[:-1], dense[:-1]
+    loop = develop(dense, axis).points
     loop = loop * _counter_clockwise(loop)
     medial = inscribed(loop, tangents(loop))
     partner = medial.partner.astype(int)

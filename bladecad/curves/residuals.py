@@ -19,6 +19,7 @@ Stretches = tuple[list[Indices], bool]  # point numbers in loop order; if they a
 NEIGHBOURS = 4  # of the cubic that predicts a point
 FEWEST = 8  # points of a run that can judge one another
 AROUND = np.array([-8, -7, -6, -5, -4, -3, 3, 4, 5, 6, 7, 8])  # nearby, but not of the same cubic
+TINY = 1e-300  # no direction where a line turns back on itself
 MAD = 1.4826  # standard deviation over median absolute deviation
 
 
@@ -126,4 +127,4 @@ def _tangents(points: Array, ring: bool) -> Array:
     T = np.roll(points, -1, axis=0) - np.roll(points, 1, axis=0)
     if not ring:
         T[0], T[-1] = points[1] - points[0], points[-1] - points[-2]
-    return np.asarray(T / np.linalg.norm(T, axis=1)[:, None])
+    return np.asarray(T / np.maximum(np.linalg.norm(T, axis=1), TINY)[:, None])
