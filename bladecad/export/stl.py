@@ -4,15 +4,31 @@ from __future__ import annotations
 
 import os
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, final
 
 from bladecad.errors import ExportError
 from bladecad.surface.triangulate import BladeMesh
 
 
-def write_stl(mesh: BladeMesh, path: str | os.PathLike[str]) -> None:
-    """Write a blade as binary STL, or nothing at all.
+@final
+@dataclass(frozen=True)
+class StlFile:
+    """What trimesh finds in an STL file.
+
+    triangles  : their number
+    watertight : closed, and wound one way
+    volume     : mm^3
+    """
+
+    triangles: int
+    watertight: bool
+    volume: float
+
+
+def write_stl(mesh: BladeMesh, path: str | os.PathLike[str]) -> StlFile:
+    """Write a blade as binary STL, or nothing at all, and return what was read back.
 
     Parameters
     ----------
@@ -23,39 +39,43 @@ def write_stl(mesh: BladeMesh, path: str | os.PathLike[str]) -> None:
     Raises
     ------
     ExportError
-        If the file cannot be written, or is not watertight once read back.
+        If the file cannot be written, or is not the same closed mesh once read back.
 
     Notes
     -----
     STL has single precision: at 300 mm from the origin a vertex moves by up to 15 nm. Vertices that
     are one stay one, for they are rounded alike.
     """
+    import trimesh
+
     path = Path(path)
     beside = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
-        beside.write_bytes(_mesh(mesh).export(file_type="stl"))
-        confirm_stl(beside, triangles=len(mesh.triangles))
+        body: Any = trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False)
+        beside.write_bytes(body.export(file_type="stl"))
+        again = read_stl(beside)
+        _confirm(again, len(mesh.triangles))
         beside.replace(path)
     except OSError as error:
         raise ExportError(f"{path} cannot be written: {error.strerror}") from error
     finally:
         with suppress(OSError):
             beside.unlink()
+    return again
 
 
-def confirm_stl(path: str | os.PathLike[str], *, triangles: int) -> None:
-    """Read an STL file back and raise ExportError unless it is closed and has all triangles."""
+def read_stl(path: str | os.PathLike[str]) -> StlFile:
+    """Read an STL file with trimesh, equal vertices merged."""
     import trimesh
 
-    again: Any = trimesh.load_mesh(path, file_type="stl")
-    if not again.is_watertight or not again.is_winding_consistent or len(again.faces) != triangles:
+    mesh: Any = trimesh.load_mesh(path, file_type="stl")
+    closed = bool(mesh.is_watertight and mesh.is_winding_consistent)
+    return StlFile(len(mesh.faces), closed, float(mesh.volume))
+
+
+def _confirm(again: StlFile, triangles: int) -> None:
+    if not again.watertight or again.triangles != triangles:
         raise ExportError(
-            f"the STL read back has {len(again.faces)} of {triangles} triangles and "
-            f"{'no holes' if again.is_watertight else 'holes'}; ask for a larger --chord-error"
+            f"the STL read back has {again.triangles} of {triangles} triangles and is "
+            f"{'closed' if again.watertight else 'not closed'}; ask for a larger --chord-error"
         )
-
-
-def _mesh(mesh: BladeMesh) -> Any:
-    import trimesh
-
-    return trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False)

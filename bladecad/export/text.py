@@ -15,8 +15,16 @@ import numpy as np
 from bladecad.errors import ExportError
 
 
-def write_json(value: object, path: str | os.PathLike[str]) -> None:
+def write_json(value: object, path: str | os.PathLike[str], *, digits: int = 17) -> None:
     """Write a value as JSON, beside first and then renamed.
+
+    Parameters
+    ----------
+    value : object
+        Mappings, sequences, arrays, numbers, text.
+    path : path
+    digits : int
+        Significant digits of the numbers; 17 keep every bit.
 
     Raises
     ------
@@ -26,7 +34,7 @@ def write_json(value: object, path: str | os.PathLike[str]) -> None:
     path = Path(path)
     beside = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
-        beside.write_text(to_json(value) + "\n", encoding="utf-8")
+        beside.write_text(to_json(value, digits=digits) + "\n", encoding="utf-8")
         beside.replace(path)
     except OSError as error:
         raise ExportError(f"{path} cannot be written: {error.strerror}") from error
@@ -35,22 +43,22 @@ def write_json(value: object, path: str | os.PathLike[str]) -> None:
             beside.unlink()
 
 
-def to_json(value: object) -> str:
-    """Return a value as JSON; arrays as lists in full precision, NaN and infinity as null."""
-    return _text(_plain(value), "")
+def to_json(value: object, *, digits: int = 17) -> str:
+    """Return a value as JSON; arrays as lists, NaN and infinity as null."""
+    return _text(_plain(value, digits), "")
 
 
-def _plain(value: object) -> Any:
+def _plain(value: object, digits: int) -> Any:
     if isinstance(value, np.ndarray | np.generic):
-        return _plain(value.tolist())
+        return _plain(value.tolist(), digits)
     if isinstance(value, Mapping):
-        return {str(key): _plain(item) for key, item in value.items()}
+        return {str(key): _plain(item, digits) for key, item in value.items()}
     if isinstance(value, str) or value is None or isinstance(value, bool | int):
         return value
     if isinstance(value, float):
-        return value if math.isfinite(value) else None
+        return float(f"{value:.{digits}g}") if math.isfinite(value) else None
     if isinstance(value, Sequence):
-        return [_plain(item) for item in value]
+        return [_plain(item, digits) for item in value]
     return str(value)
 
 

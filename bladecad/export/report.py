@@ -1,0 +1,188 @@
+"""The report: one verdict, and all the numbers it rests on; `docs/files.md` explains each."""
+
+from __future__ import annotations
+
+import hashlib
+import platform
+import sys
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from importlib import metadata
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final, final
+
+import numpy as np
+
+from bladecad.data.sections import Sections
+from bladecad.deviation.measure import Deviation
+from bladecad.export.product import Asked, Product
+from bladecad.export.report_fit import eigenvalues, fit_numbers
+from bladecad.export.report_solid import mesh_numbers, solid_numbers
+from bladecad.export.stl import StlFile
+from bladecad.fit.blade import BladeFit
+
+if TYPE_CHECKING:
+    from bladecad.brep.confirm import Agreement
+
+SCHEMA: Final = "bladecad-report/1"
+PACKAGES: Final = ("bladecad", "numpy", "scipy", "cadquery", "cadquery-ocp", "trimesh")
+
+Report = dict[str, Any]
+
+
+@final
+@dataclass(frozen=True)
+class Checks:
+    """What was found when the files were read back.
+
+    step : how far the STEP file is from the solid
+    stl  : what the STL file holds
+    """
+
+    step: Agreement
+    stl: StlFile
+
+
+def report(product: Product, *, name: str, checks: Checks, files: Mapping[str, Path]) -> Report:
+    """Return the report on a finished blade, whose files are written and read back.
+
+    Parameters
+    ----------
+    product : Product
+    name : str
+    checks : Checks
+    files : mapping
+        What each file is, to its path.
+    """
+    return {
+        **_head(name, product.within, product.settings, product.reasons),
+        "input": input_numbers(product.sections, product.lines.notes),
+        "misprints": [_misprint(one) for one in product.misprints],
+        "fit": fit_numbers(product.fit, left_out=product.left_out, noise=product.noise),
+        "eigenvalues": eigenvalues(product.fit),
+        "surface": _surface(product),
+        "solid": solid_numbers(product, checks.step),
+        "mesh": mesh_numbers(product, checks.stl),
+        "deviation": _deviation(product.deviation),
+        "files": [_file(kind, path) for kind, path in files.items()],
+        **_tail(product.seconds),
+    }
+
+
+def report_of_failure(
+    fit: BladeFit, settings: Asked, *, name: str, sections: Sections, reason: str
+) -> Report:
+    """Return the report on a blade whose fit fell short: a verdict with numbers, and no files."""
+    return {
+        **_head(name, False, settings, (reason,)),
+        "input": input_numbers(sections, fit.lines.notes),
+        "fit": fit_numbers(fit),
+        "eigenvalues": eigenvalues(fit),
+        "files": [],
+        **_tail({}),
+    }
+
+
+def input_numbers(sections: Sections, notes: tuple[str, ...]) -> Report:
+    """Return what was read, with hashes of the file and of the points as they were used."""
+    source = sections.source
+    points = hashlib.sha256(b"".join(s.points.tobytes() for s in sections.sections))
+    return {
+        "file": source.path.name if source.path else None,
+        "sha256": sha256(source.path) if source.path and source.path.is_file() else None,
+        "points_sha256": points.hexdigest(),
+        "format": source.format,
+        "unit": source.unit,
+        "unit_from": source.unit_from,
+        "axis": source.axis,
+        "axis_from": source.axis_from,
+        "sections": [{"name": s.name, "points": len(s.points)} for s in sections.sections],
+        "notes": [*source.notes, *notes],
+    }
+
+
+def sha256(path: Path) -> str:
+    """Return the SHA-256 of a file, as `sha256sum` prints it."""
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def _head(name: str, within: bool, settings: Any, reasons: tuple[str, ...]) -> Report:
+    return {
+        "schema": SCHEMA,
+        "name": name,
+        "verdict": {
+            "within": within,
+            "tolerance_mm": settings.tolerance,
+            "reasons": list(reasons),
+        },
+        "settings": asdict(settings),
+    }
+
+
+def _tail(seconds: Mapping[str, float]) -> Report:
+    versions = {package: _version(package) for package in PACKAGES}
+    return {
+        "seconds": {step: round(s, 3) for step, s in seconds.items()},
+        "versions": {**versions, "python": platform.python_version(), "platform": sys.platform},
+    }
+
+
+def _version(package: str) -> str | None:
+    try:
+        return metadata.version(package)
+    except metadata.PackageNotFoundError:
+        return None
+
+
+def _misprint(one: Any) -> Report:
+    return {
+        "section": one.section,
+        "point": one.index + 1,
+        "offset_mm": one.offset,
+        "neighbours_agree_within_mm": one.scale,
+    }
+
+
+def _surface(product: Product) -> Report:
+    surface, names = product.surface, product.lines.names
+    known = np.isfinite(product.between)
+    return {
+        "law": surface.law,
+        "leading_edge": surface.le,
+        "trailing_edge": surface.te,
+        "span": surface.span,
+        "section_left_out_mm": dict(zip(names, product.between, strict=True)),
+        "section_left_out_largest_mm": product.between[known].max() if known.any() else None,
+    }
+
+
+def _deviation(deviation: Deviation) -> Report:
+    section, point = deviation.worst()
+    return {
+        "positive": "outside the nominal surface",
+        "largest_mm": deviation.largest,
+        "worst": {"section": section, "point": point + 1},
+        "set_aside": int(deviation.set_aside.sum()),
+        "table": [_row(row) for row in deviation.table()],
+        "referee": {
+            "by": "trimesh.proximity",
+            "points": deviation.referee.count,
+            "disagreement_mm": deviation.referee.disagreement,
+            "bound_mm": deviation.referee.bound,
+        },
+    }
+
+
+def _row(row: Any) -> Report:
+    return {
+        "of": row.name,
+        "points": row.points,
+        "max_mm": row.largest,
+        "p99_mm": row.p99,
+        "rms_mm": row.rms,
+        "mean_mm": row.mean,
+    }
+
+
+def _file(kind: str, path: Path) -> Report:
+    return {"is": kind, "file": path.name, "bytes": path.stat().st_size, "sha256": sha256(path)}

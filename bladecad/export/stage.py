@@ -1,0 +1,99 @@
+"""Files that appear together or not at all: written beside, then moved in one go."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Final
+
+from bladecad.errors import ExportError
+
+REPORT: Final = "report.json"
+
+
+def check_folder(folder: str | os.PathLike[str], *, force: bool = False) -> None:
+    """Raise ExportError unless files can be written to a folder that is new, empty, or given up.
+
+    Parameters
+    ----------
+    folder : path
+    force : bool
+        Files of an earlier blade in the folder may be replaced.
+    """
+    folder = Path(folder)
+    try:
+        if folder.is_dir() and any(folder.iterdir()) and not force:
+            raise ExportError(
+                f"{folder} is not empty and is kept as it is; "
+                "name another folder, or give --force to replace the blade in it"
+            )
+        stage = _stage(folder)
+        stage.mkdir()
+        stage.rmdir()
+    except OSError as error:
+        raise _unwritable(folder, error) from error
+
+
+@contextmanager
+def staged(folder: str | os.PathLike[str], *, force: bool = False) -> Iterator[Path]:
+    """Give a folder to write into, whose files appear in `folder` once all is well.
+
+    Whatever goes wrong inside, an interruption from the keyboard too, leaves `folder` as it was.
+    Files of an earlier blade that the new one lacks are removed, other files stay.
+
+    Raises
+    ------
+    ExportError
+        As `check_folder`, and where a file cannot be written.
+    """
+    folder = Path(folder)
+    check_folder(folder, force=force)
+    stage = _stage(folder)
+    try:
+        stage.mkdir()
+        yield stage
+        _move(stage, folder)
+    except OSError as error:
+        raise _unwritable(folder, error) from error
+    finally:
+        shutil.rmtree(stage, ignore_errors=True)
+
+
+def _stage(folder: Path) -> Path:
+    """A hidden folder on the same disk: inside the folder where it exists, else above it."""
+    anchor = folder.absolute()
+    while not os.path.lexists(anchor):
+        anchor = anchor.parent
+    return anchor / f".bladecad.{os.getpid()}.part"
+
+
+def _move(stage: Path, folder: Path) -> None:
+    """Move all files; into a folder that exists one by one, the report, which vouches, last."""
+    if not folder.exists():
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        stage.rename(folder)
+        return
+    for stale in _earlier(folder):
+        stale.unlink(missing_ok=True)
+    for file in sorted(stage.iterdir(), key=lambda file: file.name == REPORT):
+        file.replace(folder / file.name)
+
+
+def _earlier(folder: Path) -> list[Path]:
+    """The report of an earlier blade, and the files it names."""
+    report = folder / REPORT
+    try:
+        named = [str(entry["file"]) for entry in json.loads(report.read_bytes())["files"]]
+    except (OSError, ValueError, KeyError, TypeError):
+        named = []
+    return [report, *(folder / name for name in named if Path(name).name == name)]
+
+
+def _unwritable(folder: Path, error: OSError) -> ExportError:
+    return ExportError(
+        f"{folder} cannot be written: {error.strerror}; name another folder or free this one"
+    )
