@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, final
 
 from bladecad.arrays import Vector
 from bladecad.curves.naming import Hand, Lead
+from bladecad.curves.odd import OddSection, odd_sections
 from bladecad.curves.outliers import Misprint, keep_masks, misprints, noise
+from bladecad.curves.properties import properties
 from bladecad.curves.repair import repaired
 from bladecad.curves.sides import BladeLines, Edges, split_sides
 from bladecad.data.read import read_sections
@@ -26,6 +28,7 @@ from bladecad.fit.order import fit_blade, met
 from bladecad.fit.segments import fit_segments
 from bladecad.surface.between import leave_one_out
 from bladecad.surface.blade import BladeSurface, EdgeKind, Law
+from bladecad.surface.homotopy import refitted
 from bladecad.surface.loft import Loft, loft
 from bladecad.surface.triangulate import BladeMesh, triangulate
 from bladecad.surface.volume import volume
@@ -83,6 +86,8 @@ class Settings:
 class Build:
     """A blade from points to solid, and everything known about it on the way.
 
+    misprints: points set aside
+    odd      : sections that stand off the trend of the others; they are built as they are
     between  : distance of each section from the surface blended without it, mm, NaN at the ends
     left_out : distance of every second point from the fit without it; None for matched models
     noise    : upper bound of the noise of the points, mm
@@ -92,6 +97,7 @@ class Build:
     settings: Settings
     sections: Sections
     misprints: tuple[Misprint, ...]
+    odd: tuple[OddSection, ...]
     lines: BladeLines
     fit: BladeFit
     surface: BladeSurface
@@ -165,6 +171,7 @@ def build(
     with clock.step("read"):
         sections, found, keep = load(path, settings)
         lines = split(sections, settings, keep)
+        odd = odd_sections(properties(lines, sections.axis))
     with clock.step("fit"):
         scatter = noise(sections)
         fitted = fit(lines, settings, scatter, progress)
@@ -188,7 +195,7 @@ def build(
     with clock.step("deviation"):
         deviation = measure(surface, mesh, sections, keep)
     return Build(
-        settings, sections, found, lines, fitted, surface, lofted, solid, mesh, deviation,
+        settings, sections, found, odd, lines, fitted, surface, lofted, solid, mesh, deviation,
         between, alone, scatter, clock.seconds,
     )  # fmt: skip
 
@@ -235,7 +242,10 @@ def surface_of(fitted: BladeFit, law: Law = "spline") -> BladeSurface:
     """Blend the flows of a fit along the span.
 
     Flows matched line by line know nothing of each other: those of second order are held to the
-    shared edge points and meet with a corner, the others leave a gap at the trailing edge.
+    shared edge points and meet with a corner, the others leave a gap at the trailing edge. Under
+    the linear law they are matched anew between the sections, as in the paper.
     """
     le, te = EDGES.get(fitted.model, (fitted.lines.le, fitted.lines.te))
+    if law == "linear" and fitted.model in ("paper", "affine", "second-order"):
+        return replace(refitted(fitted, fitted.model), le=le, te=te)
     return BladeSurface(fitted.lines.span, fitted.suction, fitted.pressure, law, le, te)

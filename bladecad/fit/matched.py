@@ -37,7 +37,7 @@ def fit_matched(
         no solid can be made of it. Its `best` is the fit, where it has numbers.
     """
     sides = [
-        side_of([_line(row, _places(lines, s), model, scheme) for row in _rows(lines, s)])
+        side_of([line_flow(row, places(lines, s), model, scheme) for row in _rows(lines, s)])
         for s in SIDES
     ]
     for name, side in zip(SIDES, sides, strict=True):
@@ -70,16 +70,17 @@ def _filled(values: Array, *shape: int) -> Array:
     return np.pad(values, [(0, n - k) for n, k in zip(shape, np.shape(values), strict=True)])
 
 
-def _places(lines: BladeLines, side: Side) -> Vector:
+def places(lines: BladeLines, side: Side) -> Vector:
     """Parameters at which all sections are taken, as dense as their points."""
     return shared_parameters(lines.parameters(side), 1)
 
 
 def _rows(lines: BladeLines, side: Side) -> Lines:
-    return lines.sample(side, _places(lines, side))
+    return lines.sample(side, places(lines, side))
 
 
-def _line(points: Points, t: Vector, model: MatchedModel, scheme: Scheme) -> MatchingFit:
+def line_flow(points: Points, t: Vector, model: MatchedModel, scheme: Scheme) -> MatchingFit:
+    """Match one line; of second order it is held to the first and the last point."""
     ends = Ends(start=points[0], end=points[-1]) if model == "second-order" else None
     return identify(points, np.diff(t), model=model, scheme=scheme, ends=ends)
 

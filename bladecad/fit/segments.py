@@ -17,7 +17,7 @@ START = Order(4, 4, 9)  # the rates of the modes are taken from this modal fit
 DEGREE = 5  # of a segment
 AT_ONCE = 3  # knots put in each round
 MOST = 60
-NARROWEST = 4  # samples between two knots
+NARROWEST = 12  # dense samples between two knots: more than a gap between points
 
 
 def fit_segments(data: Data, tolerance: float, progress: Callable[[str], None]) -> BladeFit:

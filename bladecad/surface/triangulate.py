@@ -106,7 +106,9 @@ def grid(surface: BladeSurface, chord_error: float) -> tuple[Vector, Vector]:
     dense_t = _density(tt.max(axis=0), 8.0 * ALONG_T * chord_error)
     dense_u = _density(uu.max(axis=1), 8.0 * ALONG_U * chord_error)
     twist = (ut / dense_t).max(axis=1) / (4.0 * TWIST * chord_error)
-    return _places(u, np.maximum(dense_u, twist)), _places(t, dense_t)
+    rows = _places(u, np.maximum(dense_u, twist))
+    creases = surface.span if surface.law == "linear" else surface.span[[0, -1]]
+    return np.union1d(rows, creases), _places(t, dense_t)
 
 
 def _normal_part(
