@@ -15,7 +15,6 @@ from bladecad.surface.triangulate import SIDES
 
 STEPS = 30
 STILL = 1e-9  # change of u and t at which a foot has settled
-SEEDS = 2  # nearest grid points of each side from which the search starts
 
 
 @final
@@ -46,13 +45,13 @@ def project(surface: BladeSurface, points: Points, u: Vector, t: Vector) -> Feet
     surface : BladeSurface
     points : (k, 3) float, mm
     u, t : (m,) and (n,) float
-        A grid, fine against the curvature; the search starts at its nearest vertices.
+        A grid, fine against the curvature; the search starts at its nearest vertex on each side.
 
     Notes
     -----
     Gauss-Newton with step halving on |S(u,t) - x|^2, clamped to the patch, from the nearest grid
-    vertices on both sides; the nearest of all feet is kept. At a round edge both sides share the
-    edge line, so the foot on the other side is found from that side's seeds.
+    vertex on each side; the nearer foot is kept. At a round edge both sides share the edge line, so
+    a foot beyond it is found from the other side.
     """
     found = [_on_side(surface, s, points, u, t) for s in SIDES]
     (ds, us, ts), (dp, up, tp) = found
@@ -69,17 +68,10 @@ def _on_side(
     surface: BladeSurface, name: SideName, points: Points, u: Vector, t: Vector
 ) -> tuple[Vector, Vector, Vector]:
     grid = surface(name, u, t)
-    seeds = np.asarray(cKDTree(grid.reshape(-1, 3)).query(points, k=SEEDS)[1])
-    best = np.full(len(points), np.inf)
-    places = np.zeros((len(points), 2))
-    for seed in seeds.T:
-        uv = np.column_stack([u[seed // len(t)], t[seed % len(t)]])
-        uv = _descend(surface, name, points, uv)
-        away = np.linalg.norm(points - surface.at(name, uv[:, 0], uv[:, 1]), axis=1)
-        better = away < best
-        best = np.where(better, away, best)
-        places[better] = uv[better]
-    return _sign(surface, name, points, places) * best, places[:, 0], places[:, 1]
+    seed = np.asarray(cKDTree(grid.reshape(-1, 3)).query(points)[1])
+    uv = _descend(surface, name, points, np.column_stack([u[seed // len(t)], t[seed % len(t)]]))
+    away = np.linalg.norm(points - surface.at(name, uv[:, 0], uv[:, 1]), axis=1)
+    return _sign(surface, name, points, uv) * away, uv[:, 0], uv[:, 1]
 
 
 def _descend(surface: BladeSurface, name: SideName, points: Points, uv: Array) -> Array:
