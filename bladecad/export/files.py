@@ -9,12 +9,15 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any, Final
 
+from bladecad.data.sections import Sections
+from bladecad.errors import ExportError
 from bladecad.export.model_file import save_model
 from bladecad.export.product import Product
 from bladecad.export.report import Checks, report, sha256
 from bladecad.export.stage import REPORT, staged
 from bladecad.export.stl import write_stl
 from bladecad.export.text import write_json
+from bladecad.fit.blade import BladeFit
 
 DIGITS: Final = 9  # of the numbers in the report
 
@@ -51,6 +54,8 @@ def export(
         the folder is then as it was.
     """
     folder, name = Path(folder), name or name_of(product)
+    if name == REPORT.removesuffix(".json"):
+        raise ExportError(f'a blade called "{name}" would hide its own {REPORT}; give a --name')
     with staged(folder, force=force) as stage:
         files = {
             "step": stage / f"{name}.step",
@@ -80,9 +85,9 @@ def name_of(product: Product) -> str:
     return path.stem if path else "blade"
 
 
-def provenance(product: Product) -> dict[str, Any]:
+def provenance(sections: Sections, fit: BladeFit) -> dict[str, Any]:
     """Return what a model file tells of its origin."""
-    source, fit = product.sections.source, product.fit
+    source = sections.source
     return {
         "bladecad": version("bladecad"),
         "input": source.path.name if source.path else None,
@@ -104,6 +109,8 @@ def _write(product: Product, files: Mapping[str, Path], name: str) -> Checks:
     write_step(product.solid, files["step"], name=name)
     agreement = confirm(product.solid, read_step(files["step"]))
     stl = write_stl(product.mesh, files["stl"])
-    save_model(product.surface, files["model"], provenance=provenance(product))
+    save_model(
+        product.surface, files["model"], provenance=provenance(product.sections, product.fit)
+    )
     draw_overview(product, files["picture"], name=name)
     return Checks(agreement, stl)

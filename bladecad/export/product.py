@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Protocol
 
 from bladecad.arrays import Vector
+from bladecad.curves.odd import OddSection
 from bladecad.curves.outliers import Misprint
 from bladecad.curves.sides import BladeLines
 from bladecad.data.sections import Sections
@@ -46,6 +47,10 @@ class Product(Protocol):
     @property
     def misprints(self) -> tuple[Misprint, ...]:
         """Points that were set aside."""
+
+    @property
+    def odd(self) -> tuple[OddSection, ...]:
+        """Sections that stand off the run of the others."""
 
     @property
     def lines(self) -> BladeLines:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import platform
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from importlib import metadata
 from pathlib import Path
@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING, Any, Final, final
 
 import numpy as np
 
+from bladecad.curves.outliers import Misprint
 from bladecad.data.sections import Sections
-from bladecad.deviation.measure import Deviation
+from bladecad.deviation.measure import Deviation, Row
 from bladecad.export.product import Asked, Product
 from bladecad.export.report_fit import eigenvalues, fit_numbers
 from bladecad.export.report_solid import mesh_numbers, solid_numbers
@@ -58,6 +59,7 @@ def report(product: Product, *, name: str, checks: Checks, files: Mapping[str, P
         **_head(name, product.within, product.settings, product.reasons),
         "input": input_numbers(product.sections, product.lines.notes),
         "misprints": [_misprint(one) for one in product.misprints],
+        "odd_sections": [str(one) for one in product.odd],
         "fit": fit_numbers(product.fit, left_out=product.left_out, noise=product.noise),
         "eigenvalues": eigenvalues(product.fit),
         "surface": _surface(product),
@@ -69,13 +71,23 @@ def report(product: Product, *, name: str, checks: Checks, files: Mapping[str, P
     }
 
 
-def report_of_failure(
-    fit: BladeFit, settings: Asked, *, name: str, sections: Sections, reason: str
+def fit_report(
+    fit: BladeFit,
+    settings: Asked,
+    *,
+    name: str,
+    sections: Sections,
+    misprints: Sequence[Misprint],
+    reason: str,
 ) -> Report:
-    """Return the report on a blade whose fit fell short: a verdict with numbers, and no files."""
+    """Return the report on a fit alone, where no solid was asked for or none came about.
+
+    `reason` says why the fit falls short; empty where it does not.
+    """
     return {
-        **_head(name, False, settings, (reason,)),
+        **_head(name, not reason, settings, (reason,) if reason else ()),
         "input": input_numbers(sections, fit.lines.notes),
+        "misprints": [_misprint(one) for one in misprints],
         "fit": fit_numbers(fit),
         "eigenvalues": eigenvalues(fit),
         "files": [],
@@ -134,7 +146,7 @@ def _version(package: str) -> str | None:
         return None
 
 
-def _misprint(one: Any) -> Report:
+def _misprint(one: Misprint) -> Report:
     return {
         "section": one.section,
         "point": one.index + 1,
@@ -173,7 +185,7 @@ def _deviation(deviation: Deviation) -> Report:
     }
 
 
-def _row(row: Any) -> Report:
+def _row(row: Row) -> Report:
     return {
         "of": row.name,
         "points": row.points,

@@ -38,6 +38,19 @@ def check_folder(folder: str | os.PathLike[str], *, force: bool = False) -> None
         raise _unwritable(folder, error) from error
 
 
+def check_file(file: str | os.PathLike[str], *, force: bool = False) -> None:
+    """Raise ExportError where a file exists and may not be replaced, or its folder is missing."""
+    file = Path(file)
+    if not file.parent.is_dir():
+        raise ExportError(f"{file} cannot be written: there is no folder {file.parent}; make it")
+    if file.is_dir():
+        raise ExportError(f"{file} is a folder; name a file in it")
+    if os.path.lexists(file) and not force:
+        raise ExportError(
+            f"{file} exists and is kept as it is; name another file, or give --force to replace it"
+        )
+
+
 @contextmanager
 def staged(folder: str | os.PathLike[str], *, force: bool = False) -> Iterator[Path]:
     """Give a folder to write into, whose files appear in `folder` once all is well.
