@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from bladecad.arrays import Array, Points, Vector, seal
+from bladecad.arrays import Array, Mask, Points, Vector, seal
 from bladecad.surface.blade import BladeSurface, SideName, outward
-from bladecad.surface.triangulate import SIDES
+
+Chart = Callable[[Vector, Vector, int, int], Array]  # X(u,v) or a partial derivative, (k, 3)
 
 STEPS = 30
 STILL = 1e-9  # change of u and t at which a foot has settled
+ACROSS = np.linspace(0.0, 1.0, 9)  # seeds across the face of a cut-off edge
 
 
 @final
@@ -23,12 +25,12 @@ class Feet:
     """Where points stand on a blade surface.
 
     distance : (k,) float, mm, positive outside the metal
-    suction  : (k,) bool, whether the foot is on the suction side
-    u, t     : (k,) float, parameters of the foot
+    suction  : (k,) bool, whether the foot is on the suction side, or that half of an edge face
+    u, t     : (k,) float, parameters of the foot; t is 0 or 1 on an edge face
     """
 
     distance: Vector
-    suction: NDArray[np.bool_]
+    suction: Mask
     u: Vector
     t: Vector
 
@@ -38,48 +40,79 @@ class Feet:
 
 
 def project(surface: BladeSurface, points: Points, u: Vector, t: Vector) -> Feet:
-    """Find the nearest place of the two sides for every point.
+    """Find the nearest place of the sides, and of the faces of cut-off edges, for every point.
 
     Parameters
     ----------
     surface : BladeSurface
     points : (k, 3) float, mm
     u, t : (m,) and (n,) float
-        A grid, fine against the curvature; the search starts at its nearest vertex on each side.
+        A grid, fine against the curvature; the search starts at its nearest vertex on each face.
 
     Notes
     -----
-    Gauss-Newton with step halving on |S(u,t) - x|^2, clamped to the patch, from the nearest grid
-    vertex on each side; the nearer foot is kept. At a round edge both sides share the edge line, so
-    a foot beyond it is found from the other side.
+    Gauss-Newton with step halving on |X(u,v) - x|^2, clamped to the face, from the nearest grid
+    vertex on each; the nearest foot is kept. At a round edge both sides share the edge line, so a
+    foot beyond it is found from the other side.
     """
-    found = [_on_side(surface, s, points, u, t) for s in SIDES]
-    (ds, us, ts), (dp, up, tp) = found
-    on_suction = np.abs(ds) <= np.abs(dp)
+    found = [_on_side(surface, name, points, u, t) for name in ("suction", "pressure")]
+    if surface.le == "blunt":
+        found.append(_on_edge(surface, 0.0, points, u))
+    if surface.te == "blunt":
+        found.append(_on_edge(surface, 1.0, points, u))
+    nearest = np.argmin([np.abs(feet.distance) for feet in found], axis=0)
+
+    def chosen(values: list[Array] | list[Mask]) -> Array:
+        return np.asarray(np.choose(nearest, values))
+
     return Feet(
-        np.where(on_suction, ds, dp),
-        on_suction,
-        np.where(on_suction, us, up),
-        np.where(on_suction, ts, tp),
+        chosen([f.distance for f in found]),
+        chosen([f.suction for f in found]).astype(bool),
+        chosen([f.u for f in found]),
+        chosen([f.t for f in found]),
     )
 
 
-def _on_side(
-    surface: BladeSurface, name: SideName, points: Points, u: Vector, t: Vector
-) -> tuple[Vector, Vector, Vector]:
-    grid = surface(name, u, t)
+def _on_side(surface: BladeSurface, name: SideName, points: Points, u: Vector, t: Vector) -> Feet:
+    def chart(u: Vector, t: Vector, du: int = 0, dt: int = 0) -> Array:
+        return surface.at(name, u, t, du, dt)
+
+    distance, uv = _foot(chart, points, surface(name, u, t), u, t)
+    sign = outward(surface, name)
+    suction = np.full(len(points), name == "suction")
+    return Feet(sign * distance, suction, uv[:, 0], uv[:, 1])
+
+
+def _on_edge(surface: BladeSurface, end: float, points: Points, u: Vector) -> Feet:
+    """Feet on the ruled face of a cut-off edge, X(u,v) = (1 - v) S(u,end) + v P(u,end)."""
+
+    def chart(u: Vector, v: Vector, du: int = 0, dv: int = 0) -> Array:
+        t = np.full(len(u), end)
+        S, P = (surface.at(name, u, t, du, 0) for name in ("suction", "pressure"))
+        return P - S if dv else S + v[:, None] * (P - S)
+
+    rows = [chart(u, np.full(len(u), v), 0, 0) for v in ACROSS]
+    distance, uv = _foot(chart, points, np.stack(rows, axis=1), u, ACROSS)
+    sign = outward(surface, "suction") * (1.0 if end else -1.0)
+    return Feet(sign * distance, uv[:, 1] < 0.5, uv[:, 0], np.full(len(points), end))
+
+
+def _foot(chart: Chart, points: Points, grid: Array, u: Vector, v: Vector) -> tuple[Vector, Array]:
+    """Distance, positive on the side of X_u x X_v, and parameters of the feet on one face."""
     seed = np.asarray(cKDTree(grid.reshape(-1, 3)).query(points)[1])
-    uv = _descend(surface, name, points, np.column_stack([u[seed // len(t)], t[seed % len(t)]]))
-    away = np.linalg.norm(points - surface.at(name, uv[:, 0], uv[:, 1]), axis=1)
-    return _sign(surface, name, points, uv) * away, uv[:, 0], uv[:, 1]
+    uv = _descend(chart, points, np.column_stack([u[seed // len(v)], v[seed % len(v)]]))
+    away = points - chart(uv[:, 0], uv[:, 1], 0, 0)
+    n = np.cross(chart(uv[:, 0], uv[:, 1], 1, 0), chart(uv[:, 0], uv[:, 1], 0, 1))
+    sign = np.where(np.einsum("kx,kx->k", away, n) >= 0, 1.0, -1.0)
+    return sign * np.linalg.norm(away, axis=1), uv
 
 
-def _descend(surface: BladeSurface, name: SideName, points: Points, uv: Array) -> Array:
+def _descend(chart: Chart, points: Points, uv: Array) -> Array:
     """Gauss-Newton steps, each halved until the point is nearer, inside the unit square."""
     uv = uv.copy()
     moving = np.arange(len(points))
     for _ in range(STEPS):
-        trial = _nearer(surface, name, points[moving], uv[moving])
+        trial = _nearer(chart, points[moving], uv[moving])
         still = np.abs(trial - uv[moving]).max(axis=1) < STILL
         uv[moving] = trial
         moving = moving[~still]
@@ -88,15 +121,15 @@ def _descend(surface: BladeSurface, name: SideName, points: Points, uv: Array) -
     return uv
 
 
-def _nearer(surface: BladeSurface, name: SideName, points: Points, uv: Array) -> Array:
-    """One step for every point, or none where no shorter step brings the surface nearer."""
-    u, t = uv.T
-    r = surface.at(name, u, t) - points
-    J = np.stack([surface.at(name, u, t, 1, 0), surface.at(name, u, t, 0, 1)], axis=2)
+def _nearer(chart: Chart, points: Points, uv: Array) -> Array:
+    """One step for every point, or none where no shorter step brings the face nearer."""
+    u, v = uv.T
+    r = chart(u, v, 0, 0) - points
+    J = np.stack([chart(u, v, 1, 0), chart(u, v, 0, 1)], axis=2)
     step, before = _step(J, r, uv), np.einsum("kx,kx->k", r, r)
     for _ in range(8):
         trial = np.clip(uv + step, 0.0, 1.0)
-        r = surface.at(name, trial[:, 0], trial[:, 1]) - points
+        r = chart(trial[:, 0], trial[:, 1], 0, 0) - points
         worse = np.einsum("kx,kx->k", r, r) > before
         if not worse.any():
             return trial
@@ -112,13 +145,3 @@ def _step(J: Array, r: Array, uv: Array) -> Array:
     H = np.einsum("kxi,kxj->kij", J, J)
     H = H + np.where(held[:, :, None] & np.eye(2, dtype=bool), 1.0, 0.0)
     return np.asarray(np.linalg.solve(H, np.where(held, 0.0, -g)[:, :, None])[:, :, 0])
-
-
-def _sign(surface: BladeSurface, name: SideName, points: Points, uv: Array) -> Vector:
-    n = np.cross(
-        surface.at(name, uv[:, 0], uv[:, 1], 1, 0), surface.at(name, uv[:, 0], uv[:, 1], 0, 1)
-    )
-    side = np.einsum("kx,kx->k", points - surface.at(name, uv[:, 0], uv[:, 1]), n) * outward(
-        surface, name
-    )
-    return np.where(side >= 0, 1.0, -1.0)

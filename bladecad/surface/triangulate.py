@@ -29,7 +29,7 @@ class BladeMesh:
     vertices    : (n, 3) float, mm
     faces       : name of each face to its (k, 3) vertex numbers, counter-clockwise from outside
     u, t        : the parameters of the grid
-    chord_error : largest distance between triangles and surface along its normal, measured, mm
+    chord_error : largest distance between triangles and faces along the normal, measured, mm
     rim_error   : largest distance of the border of hub and tip from its curve, measured, mm
     """
 
@@ -80,7 +80,7 @@ def triangulate(
         u, t = grid(surface, chord_error / refine**2)
         if 4 * len(u) * len(t) > LARGEST:
             break
-        reached = max(measured(surface, s, u, t) for s in SIDES)
+        reached = max(*(measured(surface, s, u, t) for s in SIDES), ruled(surface, u, t))
         mesh = BladeMesh(*_assembled(surface, u, t), u, t, reached, rim(surface, t))
         missing = abs(mesh.volume / volume - 1.0) / VOLUME if volume else 0.0
         if reached <= chord_error and missing <= 1.0:
@@ -144,6 +144,29 @@ def measured(surface: BladeSurface, name: SideName, u: Vector, t: Vector) -> flo
         (third_u[1], third_t[0], (a + c + d) / 3.0),
     ]
     return max(_largest(surface, name, *middle) for middle in middles)
+
+
+def ruled(surface: BladeSurface, u: Vector, t: Vector) -> float:
+    """Largest distance of the triangles of caps and edge faces from the faces ruled there, mm.
+
+    At the middle of each quadrilateral, where a twisted face is furthest from its diagonal.
+    """
+    ends = [
+        (u, np.array([e])) for e, kind in ((0.0, surface.le), (1.0, surface.te)) if kind == "blunt"
+    ]
+    ends += [(np.array([e]), t) for e in (0.0, 1.0)]
+    return max(_diagonals(surface, *end) for end in ends)
+
+
+def _diagonals(surface: BladeSurface, u: Vector, t: Vector) -> float:
+    um, tm = (0.5 * (a[1:] + a[:-1]) if len(a) > 1 else a for a in (u, t))
+    S, P = (surface(s, u, t).reshape(-1, 3) for s in SIDES)
+    middle = 0.5 * (surface("suction", um, tm) + surface("pressure", um, tm)).reshape(-1, 3)
+    flat = 0.5 * (S[:-1] + P[1:])
+    n = np.cross(P[1:] - S[:-1], P[:-1] - S[1:])
+    size = np.linalg.norm(n, axis=1)
+    height = np.abs(np.einsum("kx,kx->k", middle - flat, n))
+    return float(np.max(np.divide(height, size, out=np.zeros_like(size), where=size > 0)))
 
 
 def rim(surface: BladeSurface, t: Vector) -> float:
