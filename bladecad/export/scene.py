@@ -24,7 +24,8 @@ from vtkmodules.vtkRenderingCore import (
 
 from bladecad.arrays import Lines, Points
 from bladecad.export.view import View
-from bladecad.surface.triangulate import BladeMesh, Triangles
+from bladecad.surface.ruled import Triangles
+from bladecad.surface.triangulate import BladeMesh
 
 Image = NDArray[np.uint8]
 

@@ -6,14 +6,13 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bladecad.arrays import Array, Points, Vector, seal
 from bladecad.errors import GeometryError
 from bladecad.surface.blade import BladeSurface, SideName, normals
 from bladecad.surface.loft import graded
+from bladecad.surface.ruled import Triangles, rows_needed, rule
 
-Triangles = NDArray[np.int64]
 SIDES: tuple[SideName, SideName] = ("suction", "pressure")
 ALONG_T, ALONG_U, TWIST = 0.6, 0.25, 1.2  # shares of the chord error; twist is worst at a point
 MOST_ROUNDS = 8
@@ -80,8 +79,9 @@ def triangulate(
         u, t = grid(surface, chord_error / refine**2)
         if 4 * len(u) * len(t) > LARGEST:
             break
-        reached = max(*(measured(surface, s, u, t) for s in SIDES), ruled(surface, u, t))
-        mesh = BladeMesh(*_assembled(surface, u, t), u, t, reached, rim(surface, t))
+        vertices, faces, on_ruled = _assembled(surface, u, t, chord_error)
+        reached = max(*(measured(surface, s, u, t) for s in SIDES), on_ruled)
+        mesh = BladeMesh(vertices, faces, u, t, reached, rim(surface, t))
         missing = abs(mesh.volume / volume - 1.0) / VOLUME if volume else 0.0
         if reached <= chord_error and missing <= 1.0:
             return mesh
@@ -146,29 +146,6 @@ def measured(surface: BladeSurface, name: SideName, u: Vector, t: Vector) -> flo
     return max(_largest(surface, name, *middle) for middle in middles)
 
 
-def ruled(surface: BladeSurface, u: Vector, t: Vector) -> float:
-    """Largest distance of the triangles of caps and edge faces from the faces ruled there, mm.
-
-    At the middle of each quadrilateral, where a twisted face is furthest from its diagonal.
-    """
-    ends = [
-        (u, np.array([e])) for e, kind in ((0.0, surface.le), (1.0, surface.te)) if kind == "blunt"
-    ]
-    ends += [(np.array([e]), t) for e in (0.0, 1.0)]
-    return max(_diagonals(surface, *end) for end in ends)
-
-
-def _diagonals(surface: BladeSurface, u: Vector, t: Vector) -> float:
-    um, tm = (0.5 * (a[1:] + a[:-1]) if len(a) > 1 else a for a in (u, t))
-    S, P = (surface(s, u, t).reshape(-1, 3) for s in SIDES)
-    middle = 0.5 * (surface("suction", um, tm) + surface("pressure", um, tm)).reshape(-1, 3)
-    flat = 0.5 * (S[:-1] + P[1:])
-    n = np.cross(P[1:] - S[:-1], P[:-1] - S[1:])
-    size = np.linalg.norm(n, axis=1)
-    height = np.abs(np.einsum("kx,kx->k", middle - flat, n))
-    return float(np.max(np.divide(height, size, out=np.zeros_like(size), where=size > 0)))
-
-
 def rim(surface: BladeSurface, t: Vector) -> float:
     """Largest distance, across the curve, of the middles of the rim's edges from hub and tip, mm.
 
@@ -190,8 +167,13 @@ def _largest(surface: BladeSurface, name: SideName, u: Vector, t: Vector, flat: 
     return float(np.abs(np.einsum("utx,utx->ut", away, normals(surface, name, u, t))).max())
 
 
-def _assembled(surface: BladeSurface, u: Vector, t: Vector) -> tuple[Points, dict[str, Triangles]]:
-    """Vertices and named triangles; sides share the vertices of a round or sharp edge."""
+def _assembled(
+    surface: BladeSurface, u: Vector, t: Vector, chord_error: float
+) -> tuple[Points, dict[str, Triangles], float]:
+    """Vertices, named triangles, and the chord error of the ruled faces.
+
+    The sides share the vertices of a round or sharp edge; every ruled face shares its border.
+    """
     S, P = (surface(s, u, t) for s in SIDES)
     m, n = len(u), len(t)
     on_S = np.arange(m * n).reshape(m, n)
@@ -200,22 +182,28 @@ def _assembled(surface: BladeSurface, u: Vector, t: Vector) -> tuple[Points, dic
         on_P[:, 0] = on_S[:, 0]
     if surface.te != "blunt":
         on_P[:, -1] = on_S[:, -1]
-    faces = {
-        "SUCTION_SIDE": _strips(on_S),
-        "PRESSURE_SIDE": _strips(on_P)[:, ::-1],
-        "HUB": _strips(np.stack([on_P[0], on_S[0]])),
-        "TIP": _strips(np.stack([on_S[-1], on_P[-1]])),
-    }
-    if surface.le == "blunt":
-        faces["LEADING_EDGE"] = _strips(np.stack([on_P[:, 0], on_S[:, 0]], axis=1))
-    if surface.te == "blunt":
-        faces["TRAILING_EDGE"] = _strips(np.stack([on_S[:, -1], on_P[:, -1]], axis=1))
     vertices = np.concatenate([S.reshape(-1, 3), P.reshape(-1, 3)])
+    faces = {"SUCTION_SIDE": _strips(on_S), "PRESSURE_SIDE": _strips(on_P)[:, ::-1]}
+    ruled = {"HUB": (on_S[0], on_P[0], -1), "TIP": (on_S[-1], on_P[-1], 1)}
+    if surface.le == "blunt":
+        ruled["LEADING_EDGE"] = (on_S[:, 0], on_P[:, 0], 1)
+    if surface.te == "blunt":
+        ruled["TRAILING_EDGE"] = (on_S[:, -1], on_P[:, -1], -1)
+    rows = max(rows_needed(vertices[a], vertices[b], chord_error) for a, b, _ in ruled.values())
+    reached = 0.0
+    for name, (a, b, sense) in ruled.items():
+        ids, vertices, error = rule(vertices, a, b, rows)
+        faces[name], reached = _strips(ids)[:, ::sense], max(reached, error)
+    return *_outwards(*_merged(vertices, faces)), reached
+
+
+def _merged(vertices: Points, faces: dict[str, Triangles]) -> tuple[Points, dict[str, Triangles]]:
+    """Vertices that are used, equal ones once."""
     used = np.unique(np.concatenate(list(faces.values())))
+    distinct, which = np.unique(vertices[used], axis=0, return_inverse=True)
     place = np.zeros(len(vertices), np.int64)
-    place[used] = np.arange(len(used))
-    faces = {name: place[k] for name, k in faces.items()}
-    return _outwards(vertices[used], faces)
+    place[used] = which
+    return distinct, {name: place[k] for name, k in faces.items()}
 
 
 def _strips(ids: Triangles) -> Triangles:
