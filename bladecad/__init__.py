@@ -1,3 +1,138 @@
-"""Measured compressor blades to certified CAD."""
+"""Measured compressor blades to certified CAD.
+
+    import bladecad
+
+    blade = bladecad.build("sections.csv", bladecad.Settings(tolerance=0.012))
+    bladecad.export_blade(blade, "blade")
+
+Names are loaded when they are first asked for: importing bladecad costs nothing, and a model file
+can be loaded and evaluated with numpy alone.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from bladecad.brep.reread import read_step as read_step
+    from bladecad.brep.solid import Solid as Solid
+    from bladecad.brep.solid import build_solid as build_solid
+    from bladecad.curves.sides import BladeLines as BladeLines
+    from bladecad.curves.sides import split_sides as split_sides
+    from bladecad.data.read import read_sections as read_sections
+    from bladecad.data.sections import Section as Section
+    from bladecad.data.sections import Sections as Sections
+    from bladecad.data.synthetic import synthetic_blade as synthetic_blade
+    from bladecad.data.write import write_sections as write_sections
+    from bladecad.deviation.measure import Deviation as Deviation
+    from bladecad.deviation.measure import measure as measure
+    from bladecad.errors import BladecadError as BladecadError
+    from bladecad.errors import DataError as DataError
+    from bladecad.errors import ExportError as ExportError
+    from bladecad.errors import FitError as FitError
+    from bladecad.errors import GeometryError as GeometryError
+    from bladecad.errors import ToleranceError as ToleranceError
+    from bladecad.export.files import export_blade as export_blade
+    from bladecad.export.info import describe as describe
+    from bladecad.export.model_file import load as load
+    from bladecad.export.model_file import save as save
+    from bladecad.export.step import write_step as write_step
+    from bladecad.export.stl import write_stl as write_stl
+    from bladecad.fit.blade import BladeFit as BladeFit
+    from bladecad.fit.blade import Order as Order
+    from bladecad.fit.order import fit_blade as fit_blade
+    from bladecad.pipeline import Build as Build
+    from bladecad.pipeline import Settings as Settings
+    from bladecad.pipeline import build as build
+    from bladecad.surface.blade import BladeSurface as BladeSurface
+    from bladecad.surface.loft import Loft as Loft
+    from bladecad.surface.loft import loft as loft
+    from bladecad.surface.triangulate import BladeMesh as BladeMesh
+    from bladecad.surface.triangulate import triangulate as triangulate
+    from bladecad.surface.volume import volume as volume
 
 __version__ = "0.1.0"
+
+__all__ = [
+    "BladeFit",
+    "BladeLines",
+    "BladeMesh",
+    "BladeSurface",
+    "BladecadError",
+    "Build",
+    "DataError",
+    "Deviation",
+    "ExportError",
+    "FitError",
+    "GeometryError",
+    "Loft",
+    "Order",
+    "Section",
+    "Sections",
+    "Settings",
+    "Solid",
+    "ToleranceError",
+    "__version__",
+    "build",
+    "build_solid",
+    "describe",
+    "export_blade",
+    "fit_blade",
+    "load",
+    "loft",
+    "measure",
+    "read_sections",
+    "read_step",
+    "save",
+    "split_sides",
+    "synthetic_blade",
+    "triangulate",
+    "volume",
+    "write_sections",
+    "write_step",
+    "write_stl",
+]
+
+_HOMES = {
+    "brep.reread": ("read_step",),
+    "brep.solid": ("Solid", "build_solid"),
+    "curves.sides": ("BladeLines", "split_sides"),
+    "data.read": ("read_sections",),
+    "data.sections": ("Section", "Sections"),
+    "data.synthetic": ("synthetic_blade",),
+    "data.write": ("write_sections",),
+    "deviation.measure": ("Deviation", "measure"),
+    "errors": (
+        "BladecadError",
+        "DataError",
+        "ExportError",
+        "FitError",
+        "GeometryError",
+        "ToleranceError",
+    ),
+    "export.files": ("export_blade",),
+    "export.info": ("describe",),
+    "export.model_file": ("load", "save"),
+    "export.step": ("write_step",),
+    "export.stl": ("write_stl",),
+    "fit.blade": ("BladeFit", "Order"),
+    "fit.order": ("fit_blade",),
+    "pipeline": ("Build", "Settings", "build"),
+    "surface.blade": ("BladeSurface",),
+    "surface.loft": ("Loft", "loft"),
+    "surface.triangulate": ("BladeMesh", "triangulate"),
+    "surface.volume": ("volume",),
+}
+
+
+def __getattr__(name: str) -> object:
+    """Load a public name from its home, once."""
+    for home, names in _HOMES.items():
+        if name in names:
+            value: object = getattr(import_module(f"bladecad.{home}"), name)
+            globals()[name] = value
+            return value
+    raise AttributeError(f"module 'bladecad' has no attribute '{name}'")
+
+
+def __dir__() -> list[str]:
+    return __all__

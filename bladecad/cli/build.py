@@ -55,9 +55,9 @@ def build(
         with progress(quiet=quiet) as tell:
             product = pipeline.build(path, settings, progress=tell)
             tell("files")
-            from bladecad.export.files import export
+            from bladecad.export.files import export_blade
 
-            written = export(product, output, name=name, force=force)["report"]
+            written = export_blade(product, output, name=name, force=force)["report"]
     except FitError as error:
         written = _report_failure(error, path, settings, output, name, force)
     report = json.loads(written.read_text(encoding="utf-8"))

@@ -42,7 +42,7 @@ def fit(
     from bladecad import pipeline
     from bladecad.curves.outliers import noise
     from bladecad.export.files import provenance
-    from bladecad.export.model_file import save_model
+    from bladecad.export.model_file import save
     from bladecad.export.report import fit_report
     from bladecad.export.stage import check_file
 
@@ -56,7 +56,7 @@ def fit(
         fitted, reason = _fitted(lines, settings, noise(sections), tell)
         if not reason or order is not None:
             surface = pipeline.surface_of(fitted, law)
-            save_model(surface, output, provenance=provenance(sections, fitted))
+            save(surface, output, provenance=provenance(sections, fitted))
     content = fit_report(
         fitted, settings, name=path.stem, sections=sections, misprints=found, reason=reason
     )

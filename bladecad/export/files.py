@@ -11,7 +11,7 @@ from typing import Any, Final
 
 from bladecad.data.sections import Sections
 from bladecad.errors import ExportError
-from bladecad.export.model_file import save_model
+from bladecad.export.model_file import save
 from bladecad.export.product import Product
 from bladecad.export.report import Checks, report, sha256
 from bladecad.export.stage import REPORT, staged
@@ -22,7 +22,7 @@ from bladecad.fit.blade import BladeFit
 DIGITS: Final = 9  # of the numbers in the report
 
 
-def export(
+def export_blade(
     product: Product,
     folder: str | os.PathLike[str],
     *,
@@ -109,8 +109,6 @@ def _write(product: Product, files: Mapping[str, Path], name: str) -> Checks:
     write_step(product.solid, files["step"], name=name)
     agreement = confirm(product.solid, read_step(files["step"]))
     stl = write_stl(product.mesh, files["stl"])
-    save_model(
-        product.surface, files["model"], provenance=provenance(product.sections, product.fit)
-    )
+    save(product.surface, files["model"], provenance=provenance(product.sections, product.fit))
     draw_overview(product, files["picture"], name=name)
     return Checks(agreement, stl)

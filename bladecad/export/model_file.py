@@ -21,7 +21,7 @@ FAMILY: Final = "bladecad-model"
 VERSION: Final = 1
 
 
-def save_model(
+def save(
     surface: BladeSurface,
     path: str | os.PathLike[str],
     *,
@@ -55,7 +55,7 @@ def save_model(
     write_json(model, path)
 
 
-def load_model(path: str | os.PathLike[str]) -> BladeSurface:
+def load(path: str | os.PathLike[str]) -> BladeSurface:
     """Read a model file back: the same surface, bit by bit, in need of numpy alone.
 
     Raises
