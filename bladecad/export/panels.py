@@ -18,7 +18,7 @@ from bladecad.surface.loft import SIDES, graded
 
 COLOUR: Final = {"suction": "#2f6fa8", "pressure": "#c2603c"}
 INK, GREY, RED = "#20242a", "#7a828c", "#b3261e"
-PER_MM: Final = 700.0  # pixels of a blade of this many mm
+LONGER: Final = 620.0  # pixels of the longer side of a blade
 T: Final = graded(601)
 ZOOM: Final = 12.0  # edge radii across a panel that shows an edge
 EDGES: Final = ("leading", "trailing")
@@ -30,8 +30,8 @@ def draw_blade(axes: Axes, product: Product, name: SideName) -> None:
     view = view_of(surface, name, mesh.vertices)
     width, height = view.size
     lines = [surface(s, surface.span, T) for s in SIDES]
-    image = render(mesh, lines, view, PER_MM / max(view.size))
-    axes.imshow(image, extent=(0.0, width, 0.0, height), interpolation="lanczos")
+    image = render(mesh, lines, view, LONGER / max(view.size))
+    axes.imshow(image, extent=(0.0, width, 0.0, height))
     axes.set_axis_off()
     axes.set_anchor("C")
     axes.set_title(f"{name} side", color=COLOUR[name], fontsize=10)
