@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import final
 
 import numpy as np
 
 from bladecad.curves.sides import BladeLines
 from bladecad.fit.blade import BladeFit, Order, SpectrumKind
+from bladecad.fit.essence import Essence, essence
 from bladecad.fit.joint import JointFit, solve_joint
 from bladecad.fit.judge import SIDES, Bench, judge
 from bladecad.fit.projection import first_guess, project
-from bladecad.fit.samples import Samples, by_section, densify
+from bladecad.fit.samples import Samples, densify
 from bladecad.fit.sidefit import SideFit
 from bladecad.fit.spectrum import Spectrum
 
@@ -32,6 +34,12 @@ class Data:
     def lines(self) -> BladeLines:
         """The lines themselves."""
         return self.bench.lines
+
+    @cached_property
+    def essences(self) -> tuple[Essence, Essence]:
+        """What the search for rates takes, a side."""
+        suction, pressure = (essence(s) for s in self.samples)
+        return suction, pressure
 
 
 def prepare(lines: BladeLines) -> Data:
@@ -92,13 +100,12 @@ def fit_spectra(
 
 
 def _spectra(data: Data, side: int, order: Order, kind: SpectrumKind) -> tuple[Spectrum, ...]:
-    samples, u = data.samples[side], data.lines.span
-    columns = samples.about(samples.centre)
+    t, together, apart = data.essences[side]
     start = first_guess(order.le, order.te, order.degree)
     if kind == "shared":
-        return project(start, samples.t, [columns])
-    blocks = list(by_section(columns))
-    return project(start, samples.t, blocks, np.column_stack([1.0 - u, u]))
+        return project(start, t, [together])
+    u = np.round(data.lines.span, 9)
+    return project(start, t, apart, np.column_stack([1.0 - u, u]))
 
 
 def _one_section(samples: tuple[Samples, Samples], i: int) -> tuple[Samples, Samples]:

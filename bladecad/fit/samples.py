@@ -13,6 +13,7 @@ from bladecad.curves.sides import BladeLines, Side
 
 FINE = 4000  # cells in which the density of the points is counted
 NARROWEST = 2e-5  # of the side: gaps between points are not resolved below this
+ROUNDING = 1e-9  # of a step, so that a whole number of them stays one
 
 
 @final
@@ -61,4 +62,5 @@ def shared_parameters(measured: list[Vector], per_gap: int) -> Vector:
         gaps = np.maximum(np.diff(ends), NARROWEST)
         density = np.maximum(density, per_gap / gaps[np.searchsorted(ends, middle) - 1])
     count = np.concatenate([[0.0], np.cumsum(density / FINE)])
-    return np.interp(np.linspace(0.0, count[-1], int(np.ceil(count[-1])) + 1), count, edges)
+    steps = int(np.ceil(count[-1] - ROUNDING))
+    return np.interp(np.linspace(0.0, count[-1], steps + 1), count, edges)
