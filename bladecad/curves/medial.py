@@ -71,6 +71,13 @@ def inscribed(loop: Points, tangents: Array) -> Medial:
     return Medial(centres, r, q.astype(float), _opening(loop, centres, q))
 
 
+def counter_clockwise(flat: Points) -> Vector:
+    """Factors (1, +-1) that turn a flat loop counter-clockwise, mirroring it if need be."""
+    x, y = flat.T
+    area = np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)
+    return np.array([1.0, 1.0 if area > 0 else -1.0])
+
+
 def tangents(loop: Points) -> Array:
     """Unit tangents of a closed loop of uneven spacing, of second order, (n, 2)."""
     ahead = np.roll(loop, -1, axis=0) - loop

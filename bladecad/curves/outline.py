@@ -10,14 +10,13 @@ import numpy as np
 from bladecad.arrays import Array, Mask, Points, Vector
 from bladecad.curves.corners import corners
 from bladecad.curves.develop import Flat, develop
+from bladecad.curves.edges import apart, other_edge, round_edges
 from bladecad.curves.line import Line
-from bladecad.curves.medial import inscribed, tangents
+from bladecad.curves.medial import counter_clockwise
 from bladecad.data.sections import Section
 from bladecad.errors import DataError
 
 EdgeKind = Literal["round", "sharp", "blunt"]
-DENSE = 6  # samples a gap on which circles are inscribed
-PARALLEL = np.radians(140.0)  # opening of a circle that touches both sides, not one edge
 
 
 @final
@@ -103,7 +102,7 @@ def trace(
     """
     flat = develop(section.points, axis)
     keep = np.ones(len(section.points), bool) if keep is None else keep
-    loop = flat.points * _counter_clockwise(flat.points)
+    loop = flat.points * counter_clockwise(flat.points)
     breaks = _breaks(section, loop, smooth)
     named = [] if find else [e[0] for e in (section.le, section.te) if len(e) == 1]
     if len(breaks) == 2:
@@ -111,12 +110,6 @@ def trace(
     if len(breaks) == 1:
         return _one_line(section, breaks[0], named, flat, keep, axis)
     return _closed_line(section, named, flat, keep, axis)
-
-
-def _counter_clockwise(flat: Points) -> Vector:
-    x, y = flat.T
-    area = np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)
-    return np.array([1.0, 1.0 if area > 0 else -1.0])
 
 
 def _breaks(section: Section, loop: Points, smooth: bool) -> list[tuple[int, ...]]:
@@ -161,7 +154,7 @@ def _one_line(
 ) -> Outline:
     line = Line(_run(section, edge[-1], edge[0], keep), closed=False)
     named = [i for i in named if i not in edge]
-    round_edge = _station(line, section, named[0]) if named else _other_edge(line, axis)
+    round_edge = _station(line, section, named[0]) if named else other_edge(line, axis)
     sides = (Track(line, 0.0, round_edge), Track(line, line.length, round_edge))
     return Outline(section, sides, (_kind(edge), "round"), flat)
 
@@ -171,12 +164,12 @@ def _closed_line(section: Section, named: list[int], flat: Flat, keep: Mask, axi
     if len(named) == 2:
         a, b = (_station(line, section, i) for i in named)
     else:
-        a, b = _round_edges(line, axis)
+        a, b = round_edges(line, axis)
         if named:
             a = _station(line, section, named[0])
-            b = max(
-                (a, b), (a, _round_edges(line, axis)[0]), key=lambda e: float(_apart(line, *e))
-            )[1]
+            b = max((a, b), (a, round_edges(line, axis)[0]), key=lambda e: float(apart(line, *e)))[
+                1
+            ]
     b = b if b > a else b + line.length
     sides = (Track(line, a, b), Track(line, a + line.length, b))
     return Outline(section, sides, ("round", "round"), flat)
@@ -190,62 +183,3 @@ def _station(line: Line, section: Section, index: int) -> float:
     """Arc length of a point of the file, or of the line point nearest to it if it was set aside."""
     away = np.linalg.norm(line.points - section.points[index], axis=1)
     return float(line.stations[int(away.argmin())])
-
-
-def _apart(line: Line, a: Vector | float, b: Vector | float) -> Vector:
-    away = np.abs(np.asarray(a) - b)
-    return np.minimum(away, line.length - away) if line.closed else away
-
-
-def _pairs(line: Line, axis: int) -> tuple[Vector, Vector]:
-    """Arc between the two touching points of each inscribed circle, and its middle.
-
-    The shorter way round, except on an open line, where the way round is along the line.
-    """
-    s = line.densified(DENSE)
-    dense = line(s)
-    if np.array_equal(dense[0], dense[-1]):  # a sharp edge: both sides end in its point
-        s, dense = s[:-1], dense[:-1]
-    loop = develop(dense, axis).points
-    loop = loop * _counter_clockwise(loop)
-    medial = inscribed(loop, tangents(loop))
-    partner = medial.partner.astype(int)
-    through, back = s[partner], s[partner[partner]]
-    arc = _apart(line, s, through)
-    mutual = _apart(line, s, back) < 0.2 * arc
-    both = (medial.opening > PARALLEL) & mutual
-    arc, middle = np.abs(s - through)[both], 0.5 * (s + through)[both]
-    if not line.closed:
-        return arc, middle
-    behind = arc > 0.5 * line.length
-    middle = np.where(behind, (middle + 0.5 * line.length) % line.length, middle)
-    return np.where(behind, line.length - arc, arc), middle
-
-
-def _round_edges(line: Line, axis: int) -> tuple[float, float]:
-    """Arc lengths of the two round edges of a closed line."""
-    arc, middle = _pairs(line, axis)
-    if len(arc) == 0:
-        raise DataError("no circle touches two sides of the loop: this is no airfoil")
-    first = _nose(line, arc, middle)
-    far = _apart(line, first, middle) > 0.25 * line.length
-    if not far.any():
-        raise DataError("the loop has one edge only; it should have a leading and a trailing edge")
-    return first, _nose(line, arc[far], middle[far])
-
-
-def _other_edge(line: Line, axis: int) -> float:
-    """Arc length of the round edge of a line that is open at its other edge."""
-    arc, middle = _pairs(line, axis)
-    inside = (middle > 0.2 * line.length) & (middle < 0.8 * line.length)
-    return _nose(line, arc[inside], middle[inside])
-
-
-def _nose(line: Line, arc: Vector, middle: Vector) -> float:
-    """Where the camber line meets the outline: midway between the smallest pairs of touches."""
-    start = middle[arc.argmin()]
-    shift = middle - start
-    if line.closed:
-        shift = (shift + 0.5 * line.length) % line.length - 0.5 * line.length
-    smallest = (arc <= 1.5 * arc.min()) & (np.abs(shift) < 0.1 * line.length)
-    return float(start + np.median(shift[smallest]))
