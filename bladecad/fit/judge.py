@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import final
 
 import numpy as np
 
-from bladecad.arrays import Array, Vector, seal
+from bladecad.arrays import Array, Points, Vector, seal
 from bladecad.curves.sides import BladeLines, Side
 from bladecad.fit.samples import Samples, densify
 from bladecad.fit.sidefit import SideFit
@@ -104,20 +105,33 @@ class Bench:
         suction, pressure = (densify(lines, side, DENSER) for side in SIDES)
         return Bench(lines, (suction, pressure))
 
+    @cached_property
+    def measured(self) -> dict[Side, list[tuple[Vector, Points]]]:
+        """Parameters and places of the measured points, for each section of each side."""
+        return {
+            side: [
+                (t, track(track.fractions()))
+                for t, track in zip(self.lines.parameters(side), tracks, strict=True)
+            ]
+            for side, tracks in self.lines.sides.items()
+        }
+
 
 def judge(bench: Bench, suction: SideFit, pressure: SideFit) -> Errors:
     """Measure both sides on the densified lines."""
     sides = zip((suction, pressure), bench.dense, SIDES, strict=True)
-    on_suction, on_pressure = (_side(fit, dense, bench.lines, s) for fit, dense, s in sides)
+    on_suction, on_pressure = (_side(fit, dense, bench.measured[s]) for fit, dense, s in sides)
     return Errors(on_suction, on_pressure, _speed(bench.lines, suction))
 
 
-def _side(fit: SideFit, dense: Samples, lines: BladeLines, side: Side) -> SideErrors:
+def _side(fit: SideFit, dense: Samples, measured: list[tuple[Vector, Points]]) -> SideErrors:
     d = np.linalg.norm(fit(dense.t) - dense.points, axis=2)
-    near = [np.searchsorted(dense.t, t).clip(0, len(dense.t) - 1) for t in lines.parameters(side)]
-    at_points = [row[i].max() for row, i in zip(d, near, strict=True)]
-    rms = np.sqrt((d**2).mean(axis=1))
-    return SideErrors(d.max(axis=1), rms, dense.t[d.argmax(axis=1)], np.array(at_points))
+    away = [
+        np.linalg.norm(fit.section(i, t) - points, axis=1) for i, (t, points) in enumerate(measured)
+    ]
+    at_points = np.array([own.max() for own in away])
+    largest = np.maximum(d.max(axis=1), at_points)
+    return SideErrors(largest, np.sqrt((d**2).mean(axis=1)), dense.t[d.argmax(axis=1)], at_points)
 
 
 def _speed(lines: BladeLines, fit: SideFit) -> tuple[float, float]:

@@ -7,7 +7,7 @@ from typing import Protocol, final
 
 import numpy as np
 
-from bladecad.arrays import Array, Vector, seal
+from bladecad.arrays import Array, Points, Vector, seal
 
 
 class Basis(Protocol):
@@ -42,3 +42,8 @@ class SideFit:
             return np.asarray(np.einsum("tn,mnx->mtx", self.bases[0](t, order), self.coefficients))
         pairs = zip(self.bases, self.coefficients, strict=True)
         return np.array([basis(t, order) @ C for basis, C in pairs])
+
+    def section(self, i: int, t: Vector) -> Points:
+        """Points of one section, (len(t), 3)."""
+        basis = self.bases[i if len(self.bases) > 1 else 0]
+        return np.asarray(basis(t) @ self.coefficients[i])
