@@ -57,4 +57,3 @@ def spline(stretch: Stretch, n: int) -> Curves:
 
     C = np.linalg.pinv(values(stretch.fitted.t)) @ stretch.fitted.points
     return Curves(values(stretch.t) @ C, values(stretch.judged.t) @ C)
-

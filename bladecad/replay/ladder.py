@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from typing import Final, NamedTuple
 
@@ -36,9 +36,10 @@ class Step(NamedTuple):
     score: Score
 
 
-def climbed(subject: Subject) -> Iterator[Step]:
-    """Try every rung of the ladder on one blade."""
-    for name, (n, rung) in RUNGS.items():
+def climbed(subject: Subject, names: Iterable[str] | None = None) -> Iterator[Step]:
+    """Try every rung of the ladder on one blade, or those named."""
+    for name in names or RUNGS:
+        n, rung = RUNGS[name]
         curves = rung(subject)
         yield Step(subject.name, subject.region, name, n, score(subject.sides, curves))
 

@@ -45,4 +45,4 @@ def _along_span(lines: BladeLines, points: Lines) -> Array:
     knots, degree = not_a_knot(lines.span)
     to_poles = np.linalg.inv(basis(knots, degree, lines.span))
     N = basis(knots, degree, np.linspace(0.0, 1.0, SECTIONS))
-    return np.einsum("ui,ikx->ukx", N @ to_poles, points)
+    return np.asarray(np.einsum("ui,ikx->ukx", N @ to_poles, points))

@@ -28,7 +28,9 @@ def matched(stretch: Stretch, spacing: Spacing, model: Model, scheme: Scheme) ->
     fits = matched_fits(stretch, spacing, model, scheme)
     times = model_times(stretch, spacing)
     at = [evaluate(fit.flow, fit.t) for fit in fits]
-    return Curves(np.array(at), np.array([run(f.flow, t) for f, t in zip(fits, times, strict=True)]))
+    return Curves(
+        np.array(at), np.array([run(f.flow, t) for f, t in zip(fits, times, strict=True)])
+    )
 
 
 def model_times(stretch: Stretch, spacing: Spacing) -> Array:
@@ -40,4 +42,3 @@ def model_times(stretch: Stretch, spacing: Spacing) -> Array:
 def _fit(points: Points, steps: Vector, model: Model, scheme: Scheme) -> MatchingFit:
     ends = Ends(start=points[0], end=points[-1]) if model == "second-order" else None
     return identify(points, steps, model=model, scheme=scheme, ends=ends)
-

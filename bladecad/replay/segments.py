@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -20,7 +21,7 @@ def segmented(stretch: Stretch, segments: int) -> Curves:
     """
     gaps = len(stretch.t) - 1
     cuts = np.linspace(0, gaps, min(segments, gaps // FEWEST) + 1).round().astype(int)
-    pairs = zip(cuts, cuts[1:], strict=False)
+    pairs = pairwise(cuts)
     pieces = [on_trajectory(_piece(stretch, int(a), int(b)), STARTS[:1]).between for a, b in pairs]
     dense = np.concatenate([pieces[0], *[piece[:, 1:] for piece in pieces[1:]]], axis=1)
     return Curves(dense[:, ::JUDGED], dense)
