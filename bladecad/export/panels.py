@@ -58,7 +58,7 @@ def _round_length(most: float) -> float:
 def draw_sections(axes: Axes, product: Product) -> None:
     """Draw hub, middle and tip section on their chords, points on the fitted line."""
     names = product.lines.names
-    floor = 0.0
+    floor, longest = 0.0, 0.0
     for i, place in ((len(names) - 1, "tip"), (len(names) // 2, "middle"), (0, "hub")):
         points, sides = on_the_chord(product, i)
         loop = np.concatenate(list(sides.values()))
@@ -66,14 +66,23 @@ def draw_sections(axes: Axes, product: Product) -> None:
         for name, line in sides.items():
             axes.plot(*(line + lift).T, lw=1.1, color=COLOUR[name])
         axes.plot(*(points + lift).T, ".", ms=1.8, color=INK, zorder=3)
-        axes.annotate(f"{place}, “{names[i]}”", loop[len(T) - 1] + lift, (8, 0), va="center",
+        axes.annotate(f"{place}, {quoted(names[i])}", loop[len(T) - 1] + lift, (8, 0), va="center",
                       textcoords="offset points", color=GREY, fontsize=7.5)  # fmt: skip
+        longest = max(longest, float(loop[:, 0].max()))
         floor += loop[:, 1].min() - loop[:, 1].max() - 0.05 * np.ptp(loop[:, 0])
+    axes.set_xlim(-0.03 * longest, 1.3 * longest)  # room for the names
     axes.set_aspect("equal", anchor="W")
+    axes.spines["bottom"].set_bounds(0.0, longest)
+    axes.set_xticks([x for x in axes.get_xticks() if 0.0 <= x <= longest])
     axes.set_yticks([])
     axes.spines["left"].set_visible(False)
-    axes.set_xlabel("along the chord, mm", labelpad=1)
+    axes.set_xlabel("along the chord, mm", labelpad=1, x=0.4)
     axes.set_title("sections on their chords: measured points on the fitted flows", loc="left")
+
+
+def quoted(name: str, most: int = 22) -> str:
+    """Return a name in quotation marks, cut where it is long."""
+    return f"“{name if len(name) <= most else name[: most - 1] + '…'}”"
 
 
 def draw_edge(axes: Axes, product: Product, section: int, edge: int) -> None:
@@ -93,9 +102,8 @@ def draw_edge(axes: Axes, product: Product, section: int, edge: int) -> None:
     axes.set_xlim(*((-0.1 * reach, 0.9 * reach) if edge == 0 else (-0.9 * reach, 0.1 * reach)))
     shape = axes.bbox.height / axes.bbox.width
     axes.set_ylim(-0.5 * reach * shape, 0.5 * reach * shape)
-    axes.set_xlabel(f"mm from the {EDGES[edge]} edge", labelpad=1)
-    title = f"{EDGES[edge]} edge of “{product.lines.names[section]}”, r = {radius:.2g} mm"
-    axes.set_title(title, loc="left")
+    axes.set_xlabel(f"mm, section {quoted(product.lines.names[section])}", labelpad=1)
+    axes.set_title(f"{EDGES[edge]} edge, r = {radius:.2g} mm", loc="left")
 
 
 def _edge_frame(lines: list[Array], rim: Array, reach: float, edge: int) -> Array:

@@ -1,4 +1,4 @@
-"""Pictures of a finished blade: the overview that goes with its files, and one for a page."""
+"""The overview of a finished blade: what it looks like, and how well it is known."""
 
 from __future__ import annotations
 
@@ -58,23 +58,14 @@ def draw_overview(product: Product, path: str | os.PathLike[str], *, name: str) 
     with rc_context(STYLE):
         figure = Figure(figsize=(12.0, 7.34), dpi=DPI)
         _heading(figure, product, name)
-        draw_blade(figure.add_axes((0.02, 0.10, 0.225, 0.78)), product, "suction")
-        draw_blade(figure.add_axes((0.275, 0.10, 0.225, 0.78)), product, "pressure")
+        draw_blade(figure.add_axes((0.02, 0.09, 0.225, 0.745)), product, "suction")
+        draw_blade(figure.add_axes((0.275, 0.09, 0.225, 0.745)), product, "pressure")
         worst = product.fit.errors.worst()[1]
         draw_sections(figure.add_axes((0.56, 0.66, 0.42, 0.21)), product)
         draw_edge(figure.add_axes((0.56, 0.42, 0.19, 0.15)), product, worst, 0)
         draw_edge(figure.add_axes((0.79, 0.42, 0.19, 0.15)), product, worst, 1)
         draw_errors(figure.add_axes((0.56, 0.155, 0.42, 0.18)), product)
         _footing(figure, product)
-        _save(figure, Path(path))
-
-
-def draw_pair(product: Product, path: str | os.PathLike[str]) -> None:
-    """Draw the blade from both sides, with nothing beside it, as for the first page of a text."""
-    with rc_context(STYLE):
-        figure = Figure(figsize=(8.0, 5.0), dpi=DPI)
-        draw_blade(figure.add_axes((0.03, 0.09, 0.46, 0.84)), product, "suction")
-        draw_blade(figure.add_axes((0.51, 0.09, 0.46, 0.84)), product, "pressure")
         _save(figure, Path(path))
 
 
