@@ -12,7 +12,6 @@ from bladecad.arrays import Array, Vector
 from bladecad.fit.samples import Samples, by_section
 
 GRAIN = 1e-8  # of the size: finer than any point is known, coarser than any rounding
-PARAMETER_GRAIN = 1e-10
 
 
 class Essence(NamedTuple):
@@ -42,7 +41,7 @@ def essence(samples: Samples) -> Essence:
     columns = samples.about(samples.centre)
     columns = columns / (np.linalg.norm(columns) / np.sqrt(columns.size / 3))
     return Essence(
-        _rounded(samples.t, PARAMETER_GRAIN),
+        samples.t,
         _essential(columns),
         [_essential(own) for own in by_section(columns)],
     )

@@ -14,6 +14,7 @@ from bladecad.curves.sides import BladeLines, Side
 FINE = 4000  # cells in which the density of the points is counted
 NARROWEST = 2e-5  # of the side: gaps between points are not resolved below this
 ROUNDING = 1e-9  # of a step, so that a whole number of them stays one
+DIGITS = 9  # of t: a moved blade is sampled at the very same parameters
 
 
 @final
@@ -63,4 +64,5 @@ def shared_parameters(measured: list[Vector], per_gap: int) -> Vector:
         density = np.maximum(density, per_gap / gaps[np.searchsorted(ends, middle) - 1])
     count = np.concatenate([[0.0], np.cumsum(density / FINE)])
     steps = int(np.ceil(count[-1] - ROUNDING))
-    return np.interp(np.linspace(0.0, count[-1], steps + 1), count, edges)
+    t = np.interp(np.linspace(0.0, count[-1], steps + 1), count, edges)
+    return np.round(t, DIGITS)
