@@ -22,6 +22,7 @@ from bladecad.export.panels import (
     draw_sections,
 )
 from bladecad.export.product import Product
+from bladecad.export.report_solid import brep_distance
 
 DPI: Final = 150
 GREEN: Final = "#2e7d32"
@@ -91,7 +92,7 @@ def _footing(figure: Figure, product: Product) -> None:
         str(fit.order or fit.model),
         f"fit {um * fit.errors.largest:.3g} µm of {um * fit.tolerance:.3g} µm",
         f"measured points {um * product.deviation.largest:.3g} µm",
-        f"solid to surface {um * product.loft.error:.2g} µm",
+        f"solid to surface {um * brep_distance(product):.2g} µm",
         f"{product.mesh.chord_error * um:.2g} µm triangles",
     ]
     figure.text(0.02, 0.028, "   ·   ".join(facts), color=GREY, va="center")
