@@ -58,11 +58,12 @@ def _knots(spectrum: Spectrum, fit: SideFit, dense: Samples, tolerance: float) -
     """The knots of a side, and more where its error, over all sections, is above the tolerance."""
     error = np.linalg.norm(fit(dense.t) - dense.points, axis=2).max(axis=0)
     knots = spectrum.knots
+    if error.max() <= tolerance:
+        return knots
     for i in np.argsort(-error)[: len(error) // 2]:
-        place = float(dense.t[i])
         near = np.abs(np.searchsorted(dense.t, np.concatenate([[0.0], knots, [1.0]])) - i)
-        if error[i] > 0.5 * tolerance and near.min() > NARROWEST:
-            knots = np.sort(np.append(knots, place))
-        if len(knots) >= len(spectrum.knots) + AT_ONCE or error.max() <= tolerance:
+        if near.min() > NARROWEST:
+            knots = np.sort(np.append(knots, float(dense.t[i])))
+        if len(knots) >= len(spectrum.knots) + AT_ONCE:
             break
     return knots
