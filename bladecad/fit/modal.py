@@ -13,7 +13,7 @@ from bladecad.fit.blade import BladeFit, Order, SpectrumKind
 from bladecad.fit.essence import Essence, essence
 from bladecad.fit.joint import JointFit, solve_joint
 from bladecad.fit.judge import SIDES, Bench, judge
-from bladecad.fit.projection import first_guess, project
+from bladecad.fit.projection import continued, first_guess, project
 from bladecad.fit.samples import Samples, densify
 from bladecad.fit.sidefit import SideFit
 from bladecad.fit.spectrum import Spectrum
@@ -49,7 +49,12 @@ def prepare(lines: BladeLines) -> Data:
 
 
 def fit_order(
-    data: Data, order: Order, tolerance: float, *, spectrum: SpectrumKind = "shared"
+    data: Data,
+    order: Order,
+    tolerance: float,
+    *,
+    spectrum: SpectrumKind = "shared",
+    near: BladeFit | None = None,
 ) -> BladeFit:
     """Fit both sides with a given order: rates side by side, then all coefficients at once.
 
@@ -62,8 +67,10 @@ def fit_order(
         mm, recorded and judged against; it does not change the fit.
     spectrum : {"shared", "varying"}
         "varying" lets log a and k vary linearly with u.
+    near : BladeFit, optional
+        A fit of another order whose rates the search starts from, instead of the usual ones.
     """
-    spectra = [_spectra(data, i, order, spectrum) for i in (0, 1)]
+    spectra = [_spectra(data, i, order, spectrum, near) for i in (0, 1)]
     return fit_spectra(data, order, spectra[0], spectra[1], tolerance)
 
 
@@ -99,9 +106,15 @@ def fit_spectra(
     )
 
 
-def _spectra(data: Data, side: int, order: Order, kind: SpectrumKind) -> tuple[Spectrum, ...]:
+def _spectra(
+    data: Data, side: int, order: Order, kind: SpectrumKind, near: BladeFit | None
+) -> tuple[Spectrum, ...]:
     t, together, apart = data.essences[side]
     start = first_guess(order.le, order.te, order.degree)
+    if near is not None:
+        found = (near.suction, near.pressure)[side].bases[0]
+        assert isinstance(found, Spectrum)
+        start = continued(found, order.le, order.te, order.degree)
     if kind == "shared":
         return project(start, t, [together])
     u = np.round(data.lines.span, 9)

@@ -19,7 +19,7 @@ LADDER = (
     (4, 15), (4, 17), (5, 17), (5, 19), (6, 21), (7, 23), (8, 25),
 )  # fmt: skip
 FAR, VERY_FAR = 3.0, 12.0  # times the tolerance: take two, or three, rungs at once
-STALLED = 4  # rungs without a better fit after which the data, not the order, set the limit
+STALLED = 5  # rungs without a better fit after which the data, not the order, set the limit
 BETTER = 0.9
 SIGMAS = 3.0  # a tolerance below this many times the noise is below what the points can say
 
@@ -86,6 +86,9 @@ def climb(data: Data, tolerance: float, spectrum: SpectrumKind, progress: Progre
         m, p = LADDER[rung]
         progress(f"order {m}, {m}, {p}")
         fit = fit_order(data, Order(m, m, p), tolerance, spectrum=spectrum)
+        if best is not None and fit.reason and _shortfall(fit) > BETTER * _shortfall(best):
+            again = fit_order(data, Order(m, m, p), tolerance, spectrum=spectrum, near=best)
+            fit = min(fit, again, key=_shortfall)
         log.info("%s: largest %.4g mm, rms %.4g mm", fit.order, fit.errors.largest, fit.errors.rms)
         stalled = 0 if best is None or _shortfall(fit) < BETTER * _shortfall(best) else stalled + 1
         best = fit if best is None else min(best, fit, key=_shortfall)
@@ -105,7 +108,7 @@ def trim(data: Data, fit: BladeFit, spectrum: SpectrumKind, progress: Progress) 
         smaller = False
         for order in _smaller(fit.order):
             progress(f"order {order.le}, {order.te}, {order.degree}")
-            trial = fit_order(data, order, fit.tolerance, spectrum=spectrum)
+            trial = fit_order(data, order, fit.tolerance, spectrum=spectrum, near=fit)
             if not trial.reason:
                 fit, smaller = trial, True
                 break

@@ -24,6 +24,11 @@ def first_guess(le: int, te: int, degree: int, knots: Sequence[float] = ()) -> S
     return Spectrum(degree, _spread(le), _spread(te), np.array(knots))
 
 
+def continued(found: Spectrum, le: int, te: int, degree: int) -> Spectrum:
+    """Start from the rates of a spectrum already found: new pairs go where rates are missing."""
+    return Spectrum(degree, _grown(found.le, le), _grown(found.te, te), found.knots)
+
+
 def project(
     start: Spectrum,
     t: Vector,
@@ -108,6 +113,16 @@ def _spread(pairs: int) -> Array:
     low, high = START_LOG_A
     places = (np.arange(pairs) + 0.5) / max(pairs, 1)
     return np.column_stack([np.exp(low + (high - low) * places), np.full(pairs, START_K)])
+
+
+def _grown(pairs: Array, count: int) -> Array:
+    """Keep at most `count` pairs, the fastest; add the usual rate furthest from those there are."""
+    pairs = pairs[np.argsort(-pairs[:, 0])][:count]
+    while len(pairs) < count:
+        usual = _spread(count)
+        away = np.abs(np.log(usual[:, :1]) - np.log(pairs[:, 0])).min(axis=1, initial=np.inf)
+        pairs = np.vstack([pairs, usual[away.argmax()]])
+    return pairs
 
 
 def _pack(spectrum: Spectrum) -> Vector:
