@@ -1,0 +1,5 @@
+"""`python -m bladecad` is `bladecad`."""
+
+from bladecad.cli import main
+
+main()
