@@ -1,4 +1,4 @@
-"""The blades of the ladder: those in the repository, and the published ones beside it if present."""
+"""The blades of the ladder: the repository's own, and the published ones where present."""
 
 from __future__ import annotations
 

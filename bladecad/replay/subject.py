@@ -16,6 +16,7 @@ from bladecad.fit.samples import Samples, shared_parameters
 Region = Literal["core", "full"]
 REGIONS: Final[tuple[Region, Region]] = ("core", "full")
 CORE: Final = (0.03, 0.97)  # of a side: what is left when the rounded edges are cut away
+SIDE_NAMES: Final[tuple[Side, Side]] = ("suction", "pressure")
 FITTED, JUDGED = 4, 9  # samples a gap: what is fitted is not what is judged
 
 
