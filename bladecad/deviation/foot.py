@@ -14,7 +14,7 @@ from bladecad.surface.blade import BladeSurface, SideName, outward
 
 Chart = Callable[[Vector, Vector, int, int], Array]  # X(u,v) or a partial derivative, (k, 3)
 
-STEPS = 30
+STEPS = 100  # Gauss-Newton halves the error a step as far from an edge as its radius
 STILL = 1e-9  # change of u and t at which a foot has settled
 ACROSS = np.linspace(0.0, 1.0, 9)  # seeds across the face of a cut-off edge
 

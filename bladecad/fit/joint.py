@@ -14,7 +14,7 @@ from bladecad.fit.samples import Samples, by_section
 from bladecad.fit.spectrum import Spectrum
 
 JOINED: dict[EdgeKind, int] = {"round": 3, "sharp": 1, "blunt": 0}  # value, tangent, curvature
-SMALLEST = 1e-11  # singular values below this share of the first carry no information
+SMALLEST = 1e-9  # singular values below this share of the first carry no information
 
 
 @final

@@ -17,6 +17,7 @@ from bladecad.surface.patch import SplinePatch
 
 DEGREE = 3
 START, MOST = 16, 600  # spans
+SAFE = 0.8  # of the tolerance: what is measured at places must hold between them
 ENDS = 3  # poles at each end solved exactly from value, tangent and curvature
 SIDES: tuple[SideName, SideName] = ("suction", "pressure")
 
@@ -58,10 +59,10 @@ def loft(surface: BladeSurface, *, tolerance: float) -> Loft:
     while len(breaks) <= MOST:
         suction, pressure = _lofted(surface, breaks)
         error = _errors(surface, (suction, pressure), breaks)
-        if error.max() <= tolerance:
+        if error.max() <= SAFE * tolerance:
             return Loft(suction, pressure, float(error.max()))
         halves = 0.5 * (breaks[1:] + breaks[:-1])
-        breaks = np.sort(np.concatenate([breaks, halves[error > tolerance]]))
+        breaks = np.sort(np.concatenate([breaks, halves[error > SAFE * tolerance]]))
     raise GeometryError(
         f"the loft is still {1e3 * error.max():.3g} um from the surface with {MOST} spans, "
         f"{1e3 * tolerance:.3g} um are allowed; fit with a larger --tolerance"
@@ -134,7 +135,7 @@ def _gauss(breaks: Vector, count: int) -> tuple[Vector, Vector]:
 
 def _errors(surface: BladeSurface, patches: Sequence[SplinePatch], breaks: Vector) -> Vector:
     """Largest distance in every span of t, at equal (u,t), mm."""
-    between = np.linspace(0.0, 1.0, 6)[1:-1]
+    between = np.linspace(0.0, 1.0, 10)[1:-1]
     t = (breaks[:-1, None] + np.diff(breaks)[:, None] * between).ravel()
     u = np.append((surface.span[:-1, None] + np.diff(surface.span)[:, None] * between).ravel(), 1.0)
     away = [
