@@ -20,14 +20,14 @@ MARGIN: Final = 0.12  # of a chord, to both sides of the data: what is further o
 
 def figure_1(results: Results, folder: Path) -> None:
     """Scatter the points of both sides, whole and core."""
-    figure = ink.canvas(7.6, 4.3)
+    figure = ink.canvas(7.6, 4.6)
     frame = upright(results.subjects["full"])
     for i, region in enumerate(REGIONS):
         axes: Any = figure.add_subplot(1, 2, i + 1, projection="3d")
         for side, colour in zip(
             results.subjects[region].sides, (ink.BLUE, ink.ORANGE), strict=True
         ):
-            axes.scatter(*seen(side.points, frame).reshape(-1, 3).T, s=0.9, lw=0, color=colour)
+            axes.scatter(*seen(side.points, frame).reshape(-1, 3).T, s=2.2, lw=0, color=colour)
         stand(axes, seen(results.subjects["full"].suction.points, frame))
         axes.set_title(ink.TITLES[region])
     figure.legend(
@@ -43,11 +43,12 @@ def figure_1(results: Results, folder: Path) -> None:
 
 def figure_2(results: Results, folder: Path) -> None:
     """Draw every suction line in its own plane, lifted one above the other."""
-    figure = ink.canvas(7.6, 6.2)
+    figure = ink.canvas(6.4, 7.2)
     for axes, region in zip(figure.subplots(1, 2), REGIONS, strict=True):
         plain = [p for p in results.plain if p.region == region]
         _lines(axes, plain)
-        axes.set_title(ink.TITLES[region])
+        worst = " and ".join(ink.millimetres(p.absolute.max()) for p in plain)
+        axes.set_title(f"{ink.TITLES[region]}\nlargest error {worst} mm")
         axes.set_xlabel("along the chord, mm")
     figure.axes[0].set_ylabel("across, lines lifted one above the other, mm")
     handles, names = figure.axes[0].get_legend_handles_labels()
@@ -84,7 +85,7 @@ def stand(axes: Any, points: Lines) -> None:
     middle, half = (low + high) / 2, 0.53 * np.maximum(high - low, 0.25 * np.max(high - low))
     for name, m, h in zip("xyz", middle, half, strict=True):
         getattr(axes, f"set_{name}lim")(m - h, m + h)
-    axes.set_box_aspect(half, zoom=1.12)
+    axes.set_box_aspect(half, zoom=0.92)
     axes.view_init(18, -62)
     axes.set_xlabel("chord, mm")
     axes.set_zlabel("span, mm")
@@ -115,10 +116,8 @@ def _lines(axes: Axes, plain: list[Plain]) -> None:
             label="_" * (i > 0) + "data",
         )
     axes.set_xlim(-MARGIN * size, (1 + MARGIN) * size)
-    axes.set_ylim(-2.5 * MARGIN * size, (len(data) * LIFT + MARGIN) * size)
+    axes.set_ylim(-1.2 * MARGIN * size, (len(data) * LIFT + MARGIN) * size)
     axes.set_aspect("equal")
-    axes.set_title("largest error " + " and ".join(
-        f"{ink.millimetres(p.absolute.max())} mm" for p in plain), loc="right", fontsize=7)  # fmt: skip
 
 
 def _own_plane(curve: Points, points: Points) -> Points:

@@ -15,7 +15,11 @@ from bladecad.replay.results import Results
 from bladecad.replay.subject import REGIONS, Region
 
 COLOURS: Final = {"uniform": ink.ORANGE, "arc-length": ink.BLUE, "modal": ink.GREEN}
-NAMES: Final = {"uniform": "uniform steps", "arc-length": "arc-length steps", "modal": "modal"}
+NAMES: Final = {
+    "uniform": "uniform steps",
+    "arc-length": "arc-length steps",
+    "modal": "modal, whole side",
+}
 Errors = dict[str, Vector]
 
 

@@ -8,6 +8,7 @@ from typing import Final
 import numpy as np
 from matplotlib.axes import Axes
 
+from bladecad.arrays import Array, Vector
 from bladecad.replay import ink
 from bladecad.replay.origin import Move
 from bladecad.replay.results import Results
@@ -46,14 +47,16 @@ def figure_origin(results: Results, folder: Path) -> None:
     handles, names = figure.axes[0].get_legend_handles_labels()
     figure.legend(handles, names, loc="outside lower center", ncols=2)
     ink.save(figure, folder, "origin")
-    header = ("region", "model", "here_largest_mm", "here_median_mm", "moved_largest_mm",
-              "moved_median_mm")  # fmt: skip
-    rows = [(m.region, m.rung, *(float(v) for s in (m.here, m.there) for v in (s.largest, s.median)))
-            for m in results.moves]  # fmt: skip
+    header = ("region", "model", "place", "largest_mm", "median_of_lines_mm")
+    rows = [
+        (m.region, m.rung, place, float(at.largest), float(at.median))
+        for m in results.moves
+        for place, at in (("here", m.here), ("moved", m.there))
+    ]
     ink.write_table(folder, "origin", header, rows)
 
 
-def _eigenvalues(axes: Axes, u: np.ndarray, fields: np.ndarray) -> None:  # type: ignore[type-arg]
+def _eigenvalues(axes: Axes, u: Vector, fields: Array) -> None:
     values = np.linalg.eigvals(fields)
     axes.plot(u, np.sort(values.real, axis=1), ".", ms=2.5, color=ink.BLUE)
     axes.plot(u, np.sort(values.imag, axis=1), ".", ms=2.5, color=ink.ORANGE)
@@ -70,7 +73,7 @@ def _moves(axes: Axes, moves: list[Move]) -> None:
     )
     axes.hlines(y, here, there, color=ink.GREY, lw=1)
     axes.scatter(here, y, s=34, facecolor="white", edgecolor=ink.BLUE, label="as in the file")
-    axes.scatter(there, y, s=12, color=ink.ORANGE, zorder=3, label="moved by 100 mm")
+    axes.scatter(there, y, s=12, color=ink.ORANGE, zorder=3, label="moved by 100 mm along the axis")
     axes.set(xscale="log", xlim=LIMITS, ylim=(len(moves) - 0.4, -0.6))
     axes.set_yticks(y, [m.rung for m in moves])
     axes.set_xlabel("largest distance, mm")
@@ -82,9 +85,16 @@ def _moves(axes: Axes, moves: list[Move]) -> None:
 
 
 def _homotopy_tables(results: Results, folder: Path) -> None:
-    rows = [(law, *map(float, row)) for law, s in results.laws.items()
-            for row in zip(s.u, s.crease, s.left_out, strict=True)]  # fmt: skip
+    rows = [
+        (law, *map(float, row))
+        for law, s in results.laws.items()
+        for row in zip(s.u, s.crease, s.left_out, strict=True)
+    ]
     ink.write_table(folder, "homotopy", ("law", "u", "crease_deg", "left_out_mm"), rows)
-    eigen = [(region, float(u), float(v.real), float(v.imag)) for region, p in results.paper.items()
-             for u, vs in zip(p.u, np.linalg.eigvals(p.fields), strict=True) for v in vs]  # fmt: skip
-    ink.write_table(folder, "eigenvalues", ("region", "u", "real", "imaginary"), eigen)
+    spectra = [
+        (region, float(u), float(value.real), float(value.imag))
+        for region, p in results.paper.items()
+        for u, values in zip(p.u, np.linalg.eigvals(p.fields), strict=True)
+        for value in values
+    ]
+    ink.write_table(folder, "eigenvalues", ("region", "u", "real", "imaginary"), spectra)

@@ -65,7 +65,9 @@ def millimetres(value: float) -> str:
     """A length as one would say it: three digits, or that there is none."""
     if not np.isfinite(value):
         return "diverges"
-    return f"{value:.3g}" if 1e-4 <= value < 1e4 else _power(value)
+    if value >= 1e4 or 0 < value < 1e-5:
+        return _power(value)
+    return np.format_float_positional(value, 3, fractional=False, trim="-")
 
 
 def label(axes: Axes, text: str) -> None:

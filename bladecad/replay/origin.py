@@ -11,7 +11,7 @@ from bladecad.replay.curves import Score
 from bladecad.replay.ladder import RUNGS, Step, climbed
 from bladecad.replay.subject import Region, Subject
 
-MOVE: Final = 100.0 * np.ones(3) / np.sqrt(3.0)  # mm, as far along x as along y and z
+MOVE: Final = np.array([0.0, 0.0, 100.0])  # mm; along the machine axis, where z = 0 is anywhere
 STAYS: Final = 1e-3  # relative change of the largest error up to which a model does not care
 MODELS: Final = tuple(name for name in RUNGS if "spline" not in name)
 

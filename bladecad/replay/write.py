@@ -10,6 +10,7 @@ from bladecad.replay.draw_errors import figure_4, figure_5
 from bladecad.replay.draw_ladder import figure_ladder
 from bladecad.replay.draw_studies import figure_homotopy, figure_origin
 from bladecad.replay.draw_surface import figure_3
+from bladecad.replay.page import page
 from bladecad.replay.results import Progress, Results
 
 FIGURES = (
@@ -24,3 +25,8 @@ def write(results: Results, folder: Path, progress: Progress = lambda _: None) -
         for draw in FIGURES:
             progress(draw.__name__.replace("_", " "))
             draw(results, folder)
+
+
+def write_page(results: Results, file: Path, images: str = "") -> None:
+    """Write the page that explains the figures."""
+    file.write_text(page(results, images), encoding="utf-8")
