@@ -11,6 +11,7 @@ from bladecad.cli.build import build
 from bladecad.cli.convert import convert
 from bladecad.cli.fit import fit
 from bladecad.cli.info import info
+from bladecad.cli.paper import paper
 
 CODES = "Exit codes: 0 done, within tolerance; 1 out of tolerance; 2 refused, nothing written."
 
@@ -44,5 +45,5 @@ def common(
     """Measured compressor blades to certified CAD."""
 
 
-for command in (build, fit, info, convert):
+for command in (build, fit, info, convert, paper):
     app.command(epilog=CODES)(command)

@@ -17,12 +17,14 @@ DEFAULT: Final = "Rotor 37, 15 x 71"
 class Known(NamedTuple):
     """A blade, by name and by its file below fixtures/ or ../shared/data/.
 
-    points : a side, None for as many as were measured; with a number, laid out as the paper's
+    points   : a side, None for as many as were measured; with a number, laid out as the paper's
+    settings : how it is read
     """
 
     name: str
     path: Path
     points: int | None = None
+    settings: Settings = Settings()
 
 
 FIXTURES: Final = {
@@ -69,6 +71,6 @@ def others() -> list[Known]:
 
 def lines_of(blade: Known) -> BladeLines:
     """Read a blade and break it at its edges, laid out anew if it is the paper's."""
-    sections, _, keep = load(blade.path, Settings())
-    lines = split(sections, Settings(), keep)
+    sections, _, keep = load(blade.path, blade.settings)
+    lines = split(sections, blade.settings, keep)
     return split_sides(paper_layout(lines)) if blade.points else lines

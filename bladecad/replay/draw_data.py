@@ -90,7 +90,7 @@ def stand(axes: Any, points: Lines) -> None:
     axes.set_xlabel("chord, mm")
     axes.set_zlabel("span, mm")
     axes.locator_params(nbins=5)
-    axes.locator_params(axis="y", nbins=3)
+    axes.set_yticks([])
 
 
 def _lines(axes: Axes, plain: list[Plain]) -> None:

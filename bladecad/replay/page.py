@@ -29,10 +29,11 @@ from bladecad.replay.tables import (
 PROSE: Final = Path(__file__).with_name("page.md")
 AS_MEASURED: Final = "Sections and points are those of the file."
 LAID_OUT: Final = """\
-The blade is NASA Rotor 37 in its running shape (`fixtures/rotor37`), laid out as the paper's. Its 13 sections are
-made dense by their periodic cubic splines and taken at 71 parameters a side, as dense towards the edges as the
-measured points; along the span the C2 spline through them gives 15 at equal distances; and all is scaled about the
-origin until hub and tip are 100 mm apart. No fit takes part in this: the result is data, 140 points a loop."""
+The blade is NASA Rotor 37 in its running shape (`fixtures/rotor37`), laid out as the paper's. Its
+13 sections are made dense by their periodic cubic splines and taken at 71 parameters a side, as
+dense towards the edges as the measured points; along the span the C2 spline through them gives 15
+at equal distances; and all is scaled about the origin until hub and tip are 100 mm apart. No fit
+takes part in this: the result is data, 140 points a loop."""
 
 
 def page(results: Results, images: str = "") -> str:

@@ -10,9 +10,11 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Final, final
 
+import numpy as np
 from threadpoolctl import threadpool_limits
 
 from bladecad.fit.blade import Order
+from bladecad.pipeline import Settings
 from bladecad.replay.blades import Known, default_blade, lines_of, others
 from bladecad.replay.edge_modes import modal_fit
 from bladecad.replay.homotopy import LAWS, PaperSurface, Sections, blended, paper_surface, studied
@@ -24,6 +26,7 @@ from bladecad.replay.subject import REGIONS, Region, Subject, subject
 from bladecad.surface.blade import BladeSurface, Law
 
 BEST: Final = Order(4, 4, 17)  # of the surface that stands beside the paper's
+AS_THE_FILE_SAYS: Final = Settings()
 Progress = Callable[[str], None]
 Steps = list[Step]
 
@@ -52,12 +55,28 @@ class Results:
     @property
     def length(self) -> float:
         """From hub to tip, mm."""
-        return blade_length(self.subjects["full"].suction.points)
+        sides = [side.points for side in self.subjects["full"].sides]
+        return blade_length(np.concatenate(sides, axis=1))
 
 
-def replayed(path: Path | None = None, *, progress: Progress = lambda _: None) -> Results:
-    """Replay the paper on a blade; on the default one, climb the ladder on all others too."""
-    blade = default_blade() if path is None else Known(path.stem, path)
+def replayed(
+    path: Path | None = None,
+    settings: Settings = AS_THE_FILE_SAYS,
+    *,
+    progress: Progress = lambda _: None,
+) -> Results:
+    """Replay the paper on a blade; on the default one, climb the ladder on all others too.
+
+    Parameters
+    ----------
+    path : path, optional
+        Any blade, with its own sections and points. By default Rotor 37, laid out as the paper's.
+    settings : Settings
+        How that file is read.
+    progress : callable
+        Told what is being done.
+    """
+    blade = default_blade() if path is None else Known(path.stem, path, settings=settings)
     return found(blade, others() if path is None else [], progress)
 
 
