@@ -9,6 +9,8 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, final
 
+from threadpoolctl import threadpool_limits
+
 from bladecad.arrays import Vector
 from bladecad.curves.naming import Hand, Lead
 from bladecad.curves.odd import OddSection, odd_sections
@@ -130,7 +132,10 @@ class Build:
 
 @final
 class Clock:
-    """Wall time of each step, told as it begins."""
+    """Wall time of each step, told as it begins; each runs in one thread.
+
+    Many small factorisations and products: threads would only wait for each other.
+    """
 
     def __init__(self, progress: Progress) -> None:
         self.progress = progress
@@ -141,7 +146,8 @@ class Clock:
         """Time one step."""
         self.progress(name)
         start = perf_counter()
-        yield
+        with threadpool_limits(1):
+            yield
         self.seconds[name] = perf_counter() - start
 
 
@@ -187,9 +193,11 @@ def build(
         lofted = loft(surface, tolerance=LOFT)
         inside = volume(lofted.suction, lofted.pressure)
     with clock.step("solid"):
+        from bladecad.brep.limits import Limits
         from bladecad.brep.solid import build_solid
 
-        solid = build_solid(lofted.suction, lofted.pressure, volume=inside)
+        limits = Limits(fold=max(Limits.fold, settings.tolerance))  # as exact as the sides are
+        solid = build_solid(lofted.suction, lofted.pressure, volume=inside, limits=limits)
     with clock.step("triangles"):
         mesh = triangulate(surface, chord_error=settings.chord_error, volume=inside)
     with clock.step("deviation"):
@@ -221,9 +229,7 @@ def fit(
     progress: Progress = lambda _: None,
 ) -> BladeFit:
     """Fit the lines with the model of the settings; `scatter` is the noise of the points, mm."""
-    from threadpoolctl import threadpool_limits
-
-    with threadpool_limits(1):  # many small factorisations: threads only wait for each other
+    with threadpool_limits(1):
         if settings.model == "modal":
             return fit_blade(
                 lines,

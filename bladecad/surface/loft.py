@@ -9,7 +9,7 @@ from typing import final
 import numpy as np
 from scipy.linalg import lstsq
 
-from bladecad.arrays import Array, Vector
+from bladecad.arrays import Array, Mask, Vector
 from bladecad.errors import GeometryError
 from bladecad.splines import basis, clamped
 from bladecad.surface.blade import BladeSurface, SideName
@@ -61,8 +61,7 @@ def loft(surface: BladeSurface, *, tolerance: float) -> Loft:
         error = _errors(surface, (suction, pressure), breaks)
         if error.max() <= SAFE * tolerance:
             return Loft(suction, pressure, float(error.max()))
-        halves = 0.5 * (breaks[1:] + breaks[:-1])
-        breaks = np.sort(np.concatenate([breaks, halves[error > SAFE * tolerance]]))
+        breaks = _halved(breaks, error > SAFE * tolerance)
     raise GeometryError(
         f"the loft is still {1e3 * error.max():.3g} um from the surface with {MOST} spans, "
         f"{1e3 * tolerance:.3g} um are allowed; fit with a larger --tolerance"
@@ -80,6 +79,16 @@ def _first_breaks(surface: BladeSurface) -> Vector:
     own = [getattr(b, "knots", np.empty(0)) for s in SIDES for b in surface.side(s).bases]
     breaks = np.unique(np.concatenate([graded(START + 1), *own]))
     return np.asarray(breaks[np.diff(breaks, prepend=-1.0) > 1e-9])
+
+
+def _halved(breaks: Vector, poor: Mask) -> Vector:
+    """Halve the poor spans, and any longer one beside them: errors leak out of long neighbours."""
+    width = np.diff(breaks)
+    beside = np.zeros_like(poor)
+    beside[1:] |= poor[:-1] & (width[1:] > 1.5 * width[:-1])
+    beside[:-1] |= poor[1:] & (width[:-1] > 1.5 * width[1:])
+    halves = 0.5 * (breaks[1:] + breaks[:-1])
+    return np.sort(np.concatenate([breaks, halves[poor | beside]]))
 
 
 def _lofted(surface: BladeSurface, breaks: Vector) -> tuple[SplinePatch, SplinePatch]:
