@@ -91,7 +91,7 @@ def _fit_rows(fit: Report) -> Iterator[tuple[str, str]]:
 
 
 def _surface_rows(report: Report) -> Iterator[tuple[str, str]]:
-    between = report["surface"]["section_left_out_largest_mm"]
+    between = report["surface"]["section_left_out_mm"]
     if between is not None:
         yield "between", f"max {um(between)} where a section was left out and predicted"
     deviation = report["deviation"]

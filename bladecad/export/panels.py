@@ -10,10 +10,10 @@ from matplotlib.ticker import FuncFormatter, NullFormatter
 
 from bladecad.arrays import Array, Points
 from bladecad.curves.develop import develop
-from bladecad.export.product import Product
+from bladecad.export.product import Product, between_sections
 from bladecad.export.scene import render
 from bladecad.export.view import view_of
-from bladecad.surface.blade import BladeSurface, SideName
+from bladecad.surface.blade import SideName
 from bladecad.surface.loft import SIDES, graded
 
 COLOUR: Final = {"suction": "#2f6fa8", "pressure": "#c2603c"}
@@ -29,7 +29,7 @@ def draw_blade(axes: Axes, product: Product, name: SideName) -> None:
     surface, mesh = product.surface, product.mesh
     view = view_of(surface, name, mesh.vertices)
     width, height = view.size
-    lines = [surface(s, surface.span, T) for s in SIDES]
+    lines = [surface(s, product.lines.span, T) for s in SIDES]
     image = render(mesh, lines, view, LONGER / max(view.size))
     axes.imshow(image, extent=(0.0, width, 0.0, height))
     axes.set_axis_off()
@@ -59,15 +59,16 @@ def draw_sections(axes: Axes, product: Product) -> None:
     """Draw hub, middle and tip section on their chords, points on the fitted line."""
     names = product.lines.names
     floor, longest = 0.0, 0.0
-    for i, place in ((len(names) - 1, "tip"), (len(names) // 2, "middle"), (0, "hub")):
+    shown = {len(names) // 2: "middle", len(names) - 1: "tip", 0: "hub"}
+    for i in sorted(shown, reverse=True):
         points, sides = on_the_chord(product, i)
         loop = np.concatenate(list(sides.values()))
         lift = np.array([0.0, floor - loop[:, 1].max()])
         for name, line in sides.items():
             axes.plot(*(line + lift).T, lw=1.1, color=COLOUR[name])
         axes.plot(*(points + lift).T, ".", ms=1.8, color=INK, zorder=3)
-        axes.annotate(f"{place}, {quoted(names[i])}", loop[len(T) - 1] + lift, (8, 0), va="center",
-                      textcoords="offset points", color=GREY, fontsize=7.5)  # fmt: skip
+        axes.annotate(f"{shown[i]}, {quoted(names[i])}", loop[len(T) - 1] + lift, (8, 0),
+                      textcoords="offset points", va="center", color=GREY, fontsize=7.5)  # fmt: skip
         longest = max(longest, float(loop[:, 0].max()))
         floor += loop[:, 1].min() - loop[:, 1].max() - 0.05 * np.ptp(loop[:, 0])
     axes.set_xlim(-0.03 * longest, 1.3 * longest)  # room for the names
@@ -88,7 +89,7 @@ def quoted(name: str, most: int = 22) -> str:
 def draw_edge(axes: Axes, product: Product, section: int, edge: int) -> None:
     """Draw one edge of one section large: points against the fitted line; edge 0 leads."""
     points, sides = on_the_chord(product, section)
-    radius = _edge_radius(product.surface, section, edge)
+    radius = _edge_radius(product, section, edge)
     rims = np.array([line[-edge] for line in sides.values()])
     rows = _edge_frame(list(sides.values()), rims.mean(axis=0), 5.0 * radius, edge)
     points, rims, *lines = (
@@ -115,9 +116,13 @@ def _edge_frame(lines: list[Array], rim: Array, reach: float, edge: int) -> Arra
     return np.array([e, [-e[1], e[0]]])
 
 
-def _edge_radius(surface: BladeSurface, section: int, edge: int) -> float:
+def _edge_radius(product: Product, section: int, edge: int) -> float:
     """Radius of a round edge, half the width of a cut-off one, mm."""
-    u, t = surface.span[section : section + 1], np.array([float(edge)])
+    surface, u, t = (
+        product.surface,
+        product.lines.span[section : section + 1],
+        np.array([float(edge)]),
+    )
     if (surface.le, surface.te)[edge] != "round":
         wide = surface("suction", u, t) - surface("pressure", u, t)
         return max(0.5 * float(np.linalg.norm(wide)), 0.05)
@@ -130,7 +135,7 @@ def on_the_chord(product: Product, i: int) -> tuple[Points, dict[SideName, Array
 
     The leading edge is the origin, the chord the first axis, and the suction side above.
     """
-    surface, u = product.surface, product.surface.span[i : i + 1]
+    surface, u = product.surface, product.lines.span[i : i + 1]
     measured = product.sections.sections[i].points
     curves = [surface(s, u, T)[0] for s in SIDES]
     flat = develop(np.concatenate([measured, *curves]), product.sections.axis).points
@@ -148,27 +153,31 @@ def on_the_chord(product: Product, i: int) -> tuple[Points, dict[SideName, Array
 
 def draw_errors(axes: Axes, product: Product) -> None:
     """Draw the error of every section on a logarithmic scale, with the tolerance."""
-    errors, u, um = product.fit.errors, product.surface.span, 1e3
+    errors, u, um = product.fit.errors, product.lines.span, 1e3
     for name, side in (("suction", errors.suction), ("pressure", errors.pressure)):
         axes.plot(u, um * side.largest, "o-", ms=4, lw=1, color=COLOUR[name],
                   label=f"{name} side, largest")  # fmt: skip
         axes.plot(u, um * side.rms, "o--", ms=4, lw=0.8, mfc="white", color=COLOUR[name],
                   label=f"{name} side, rms")  # fmt: skip
-    axes.plot(u, um * product.between, "d:", ms=4, lw=0.8, color=GREY,
-              label="section left out and predicted")  # fmt: skip
+    left_out = between_sections(product)
+    if np.isfinite(left_out).any():
+        axes.plot(u, um * left_out, "d:", ms=4, lw=0.8, color=GREY,
+                  label="section left out and predicted")  # fmt: skip
     tolerance = um * product.settings.tolerance
     axes.axhline(tolerance, color=RED, lw=1.2)
     axes.annotate(f"tolerance {tolerance:.3g} µm", (0.0, tolerance), (2, 2), color=RED, fontsize=8,
                   textcoords="offset points", va="bottom")  # fmt: skip
-    _error_axes(axes)
+    _error_axes(axes, tolerance)
 
 
-def _error_axes(axes: Axes) -> None:
+def _error_axes(axes: Axes, tolerance: float) -> None:
     axes.set_yscale("log")
+    low, high = axes.get_ylim()
+    axes.set_ylim(min(low, tolerance / 15.0), max(high, 4.0 * tolerance))
     axes.yaxis.set_major_formatter(FuncFormatter(lambda y, _: f"{y:g}"))
     axes.yaxis.set_minor_formatter(NullFormatter())
     axes.set_xlabel("span u of the sections, hub 0, tip 1", labelpad=1)
-    axes.set_ylabel("distance, µm", labelpad=1)
+    axes.set_ylabel("distance, µm", labelpad=6)
     axes.set_title("error per section: the fit, and the surface between sections", loc="left")
     axes.grid(axis="y", lw=0.4, color="#d8dce1")
     handles, labels = axes.get_legend_handles_labels()

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Protocol
 
+import numpy as np
+
 from bladecad.arrays import Vector
 from bladecad.curves.odd import OddSection
 from bladecad.curves.outliers import Misprint
@@ -103,3 +105,12 @@ class Product(Protocol):
     @property
     def within(self) -> bool:
         """Whether the blade is within the tolerance."""
+
+
+def between_sections(product: Product) -> Vector:
+    """What was measured by leaving each section out, for the sections alone, (m,) mm.
+
+    A surface that was matched anew between the sections has more flows than there are sections.
+    """
+    at = np.searchsorted(product.surface.span, product.lines.span - 1e-12)
+    return np.asarray(product.between[at])

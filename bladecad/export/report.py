@@ -16,7 +16,7 @@ import numpy as np
 from bladecad.curves.outliers import Misprint
 from bladecad.data.sections import Sections
 from bladecad.deviation.measure import Deviation, Row
-from bladecad.export.product import Asked, Product
+from bladecad.export.product import Asked, Product, between_sections
 from bladecad.export.report_fit import eigenvalues, fit_numbers
 from bladecad.export.report_solid import mesh_numbers, solid_numbers
 from bladecad.export.stl import StlFile
@@ -157,14 +157,17 @@ def _misprint(one: Misprint) -> Report:
 
 def _surface(product: Product) -> Report:
     surface, names = product.surface, product.lines.names
-    known = np.isfinite(product.between)
+    left_out = between_sections(product)
+    known = np.isfinite(left_out)
     return {
         "law": surface.law,
         "leading_edge": surface.le,
         "trailing_edge": surface.te,
-        "span": surface.span,
-        "section_left_out_mm": dict(zip(names, product.between, strict=True)),
-        "section_left_out_largest_mm": product.between[known].max() if known.any() else None,
+        "span": product.lines.span,
+        "section_left_out": [
+            {"section": name, "max_mm": away} for name, away in zip(names, left_out, strict=True)
+        ],
+        "section_left_out_mm": left_out[known].max() if known.any() else None,
     }
 
 

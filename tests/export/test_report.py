@@ -2,16 +2,20 @@ from __future__ import annotations
 
 import hashlib
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from bladecad.brep.confirm import Agreement
+from bladecad.export.product import between_sections
 from bladecad.export.report import Checks, fit_report, report
 from bladecad.export.report_fit import eigenvalues
 from bladecad.export.report_solid import brep_distance, edge_angles
 from bladecad.export.stl import StlFile
 from bladecad.export.text import to_json
+from bladecad.fit.sidefit import SideFit
+from bladecad.surface.blade import BladeSurface
 from tests.export.products import FIXTURES, GOOD, coarse, small
 
 CHECKS = Checks(Agreement(1e-13, 1e-11, 1e-12), StlFile(10, True, 1.0))
@@ -73,7 +77,7 @@ def test_the_solid_is_told_with_its_witnesses_and_its_distance_from_s():
     assert found["vertices_edges_faces"] == found["expected"] == [4, 6, 4]
     assert found["volume_error"] < 1e-6
     assert found["to_surface_mm"] == pytest.approx(brep_distance(small()))
-    assert found["to_surface_mm"] < 1.5e-3
+    assert found["to_surface_mm"] < 1e-3
     assert found["faces"].keys() == {"SUCTION_SIDE", "PRESSURE_SIDE", "HUB", "TIP"}
 
 
@@ -93,10 +97,21 @@ def test_the_deviation_table_covers_sides_zones_and_sections():
 
 
 def test_sections_at_the_ends_cannot_be_left_out():
-    left_out = list(made(small())["surface"]["section_left_out_mm"].values())
+    found = made(small())["surface"]
+    left_out = [row["max_mm"] for row in found["section_left_out"]]
     assert left_out[0] is None
     assert left_out[-1] is None
     assert min(left_out[1:-1]) > 0
+    assert found["section_left_out_mm"] == max(left_out[1:-1])
+
+
+def test_flows_between_the_sections_are_no_sections():
+    blade, u = small(), np.linspace(0, 1, 7)
+    span = np.union1d(blade.lines.span, u)
+    bases = blade.surface.suction.bases
+    side = SideFit(bases, np.zeros((len(span), bases[0].size, 3)))
+    finer = replace(blade, surface=BladeSurface(span, side, side), between=span)
+    np.testing.assert_array_equal(between_sections(finer), blade.lines.span)
 
 
 def test_versions_and_times_are_told():
