@@ -9,7 +9,7 @@ from bladecad.replay.page import page
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 NUMBER = re.compile(r"(?<![\w.])\d[\d.]*(?:e[+-]?\d+)?(?![\w.]*\w)")
-SEARCHED = ("modal", "spline,", "spline |", "linear |")  # rows that rest on the search for rates
+SEARCHED = ("modal", "spline law", "| spline |", "| linear |")  # what rests on the search for rates
 
 
 def words(line):
