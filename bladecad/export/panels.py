@@ -67,8 +67,9 @@ def draw_sections(axes: Axes, product: Product) -> None:
         for name, line in sides.items():
             axes.plot(*(line + lift).T, lw=1.1, color=COLOUR[name])
         axes.plot(*(points + lift).T, ".", ms=1.8, color=INK, zorder=3)
-        axes.annotate(f"{shown[i]}, {quoted(names[i])}", loop[len(T) - 1] + lift, (8, 0),
-                      textcoords="offset points", va="center", color=GREY, fontsize=7.5)  # fmt: skip
+        label, place = f"{shown[i]}, {quoted(names[i])}", loop[len(T) - 1] + lift
+        axes.annotate(label, place, (8, 0), textcoords="offset points", va="center",
+                      color=GREY, fontsize=7.5)  # fmt: skip
         longest = max(longest, float(loop[:, 0].max()))
         floor += loop[:, 1].min() - loop[:, 1].max() - 0.05 * np.ptp(loop[:, 0])
     axes.set_xlim(-0.03 * longest, 1.3 * longest)  # room for the names
