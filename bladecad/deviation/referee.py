@@ -15,6 +15,7 @@ from bladecad.surface.triangulate import BladeMesh
 
 SAMPLE = 1000
 ROUNDING = 1e-6  # mm
+SLACK = 1.05  # the chord error is taken at middles of edges and triangles, the largest lies beside
 RIM = 1e-6  # of the span
 CAPS = ("HUB", "TIP")  # the end sections lie on them: they would hide the distance from the sides
 
@@ -26,7 +27,7 @@ class Referee:
 
     count        : points that trimesh measured
     disagreement : largest difference of the distances, mm
-    bound        : what the triangulation allows, mm: its chord error, for a point whose foot lies
+    bound        : what the triangulation allows, mm: about its chord error, for a point whose foot lies
                    on the border of hub or tip the error of that border
     """
 
@@ -51,7 +52,8 @@ def confirm(mesh: BladeMesh, points: Points, feet: Feet) -> Referee:
     measured = trimesh.proximity.closest_point(body, points[sample])[1]
     away = np.abs(measured - np.abs(feet.distance[sample]))
     on_rim = (feet.u[sample] <= RIM) | (feet.u[sample] >= 1.0 - RIM)
-    bound = np.where(on_rim, max(mesh.chord_error, mesh.rim_error), mesh.chord_error) + ROUNDING
+    bound = np.where(on_rim, max(mesh.chord_error, mesh.rim_error), mesh.chord_error)
+    bound = SLACK * bound + ROUNDING
     k = int((away / bound).argmax())
     if away[k] > bound[k]:
         raise GeometryError(
