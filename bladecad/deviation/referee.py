@@ -27,8 +27,8 @@ class Referee:
 
     count        : points that trimesh measured
     disagreement : largest difference of the distances, mm
-    bound        : what the triangulation allows, mm: about its chord error, for a point whose foot lies
-                   on the border of hub or tip the error of that border
+    bound        : what the triangulation allows, mm: about its chord error, for a point whose foot
+                   lies on the border of hub or tip the error of that border
     """
 
     count: int
