@@ -27,7 +27,7 @@ install = $(1)/pip install --quiet 'pip>=25.1' && $(1)/pip install --quiet --edi
 .PHONY: demo test check bench lock clean
 
 demo: $(STAMP)
-	$(BIN)/bladecad build fixtures/rotor37/sections.csv -o $(DEMO) --tolerance 0.012 --force
+	$(BIN)/bladecad build fixtures/rotor37/sections.csv -o $(DEMO) --tolerance 0.012 --name rotor37 --force
 	@echo; echo 'The blade is in $(DEMO):'; ls -1 $(DEMO) | sed 's/^/  /'
 
 test: $(STAMP)

@@ -6,6 +6,8 @@ import logging
 from collections.abc import Callable
 from dataclasses import replace
 
+from threadpoolctl import threadpool_limits
+
 from bladecad.curves.sides import BladeLines
 from bladecad.errors import FitError
 from bladecad.fit.blade import BladeFit, Order, SpectrumKind
@@ -62,9 +64,17 @@ def fit_blade(
     FitError
         If no order meets the tolerance; its `best` is the closest fit.
     """
-    data = prepare(lines)
-    if order is not None:
-        return fit_order(data, order, tolerance, spectrum=spectrum)
+    with threadpool_limits(1):  # many small factorisations: threads only wait for each other
+        data = prepare(lines)
+        if order is not None:
+            return fit_order(data, order, tolerance, spectrum=spectrum)
+        return _searched(data, tolerance, spectrum, noise, progress)
+
+
+def _searched(
+    data: Data, tolerance: float, spectrum: SpectrumKind, noise: float, progress: Progress
+) -> BladeFit:
+    """The smallest order that meets the tolerance, segments where none does."""
     best = climb(data, tolerance, spectrum, progress)
     if best.reason and SIGMAS * noise < tolerance:
         best = min(best, fit_segments(data, tolerance, progress), key=_shortfall)
