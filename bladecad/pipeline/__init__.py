@@ -1,0 +1,15 @@
+"""The steps of the method, one line each.
+
+    build   sections in, a measured solid out
+    check   a nominal blade and a scan in, a verdict out
+"""
+
+from bladecad.pipeline.build import Build as Build
+from bladecad.pipeline.build import Clock as Clock
+from bladecad.pipeline.build import Progress as Progress
+from bladecad.pipeline.build import Settings as Settings
+from bladecad.pipeline.build import build as build
+from bladecad.pipeline.build import fit as fit
+from bladecad.pipeline.build import load as load
+from bladecad.pipeline.build import split as split
+from bladecad.pipeline.build import surface_of as surface_of
