@@ -1,0 +1,1 @@
+"""What pytest finds of bladecad by itself: the fixture `blade_check`."""
