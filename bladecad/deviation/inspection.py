@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, final
 import numpy as np
 from numpy.typing import NDArray
 
-from bladecad.arrays import Vector, seal
 from bladecad.data.scan import Scan
 from bladecad.deviation.coverage import Map
 from bladecad.deviation.feet import Feet
@@ -17,39 +16,12 @@ from bladecad.deviation.nominal import Nominal
 from bladecad.deviation.parameters import Number
 from bladecad.deviation.referee import Referee
 from bladecad.deviation.section_result import SectionResult
+from bladecad.deviation.worst import Worst as Worst
 from bladecad.deviation.zones import ZoneResult
-from bladecad.surface.blade import SideName
-from bladecad.tolerance import Tolerances, ZoneName
+from bladecad.tolerance import Tolerances
 
 if TYPE_CHECKING:
     from bladecad.deviation.registration import Registration
-
-
-@final
-@dataclass(frozen=True, eq=False)
-class Worst:
-    """One of the worst places: the point furthest out of its band for a neighbourhood around it.
-
-    zone, section    : that it lies on, and name of the nearest station
-    side, u, t       : of its foot
-    point            : (3,) float, mm, in the frame of the nominal
-    index            : number of the point in the scan, from 0
-    deviation        : mm, positive outside the metal
-    excess           : mm outside the band; negative inside: how much was left
-    """
-
-    zone: ZoneName
-    section: str
-    side: SideName
-    u: float
-    t: float
-    point: Vector
-    index: int
-    deviation: float
-    excess: float
-
-    def __post_init__(self) -> None:
-        seal(self, point=(3,))
 
 
 @final
