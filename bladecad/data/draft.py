@@ -54,9 +54,9 @@ class Draft:
 
 def settle(draft: Draft, path: Path, unit: Unit | None, axis: Axis | None) -> Sections:
     """Turn a draft into sections in mm; an option wins over the file, the file over the default."""
-    in_unit, unit_from, unit_notes = _choose("unit", "--units", draft.unit, unit, draft.usual)
+    in_unit, unit_from, unit_notes = choose("unit", "--units", draft.unit, unit, draft.usual)
     axis_said = None if draft.cylindrical and axis else draft.axis
-    about, axis_from, axis_notes = _choose("axis", "--axis", axis_said, axis, Z)
+    about, axis_from, axis_notes = choose("axis", "--axis", axis_said, axis, Z)
     column = "xyz".index(about)
     turn = column - 2 if draft.cylindrical else 0
     scale = MM_PER[in_unit]
@@ -73,9 +73,10 @@ def settle(draft: Draft, path: Path, unit: Unit | None, axis: Axis | None) -> Se
     return Sections(sections, source, row)
 
 
-def _choose(
+def choose(
     what: str, flag: str, said: T | None, asked: T | None, default: T
 ) -> tuple[T, Origin, tuple[str, ...]]:
+    """Return what holds, who said so, and notes; an option wins over the file."""
     if asked is not None:
         clash = f"the file says {what} {said}, but {flag} {asked} is taken"
         return asked, "option", (clash,) if said not in (None, asked) else ()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import final
@@ -133,6 +134,13 @@ def _is_number(field: str) -> bool:
     return bool(_RUN_TOGETHER.fullmatch(field) or _NOT_FINITE.fullmatch(field))
 
 
+def has_decimal_commas(lines: Sequence[str]) -> bool:
+    """Whether numbers are written `1,5`: none has a point, and commas stand within them."""
+    return not any(re.search(r"\d\.\d", line) for line in lines) and any(
+        map(_has_decimal_commas, lines)
+    )
+
+
 def _decode(path: Path, raw: bytes) -> str:
     if raw.startswith((b"\xff\xfe", b"\xfe\xff")):
         return raw.decode("utf-16", errors="replace")
@@ -150,11 +158,7 @@ def _decode(path: Path, raw: bytes) -> str:
 
 def _decimal_points(lines: list[str]) -> list[str]:
     """Turn `1,5; 2` into `1.5; 2`, where the whole file writes its numbers so."""
-    if any(re.search(r"\d\.\d", line) for line in lines):
-        return lines
-    if not any(map(_has_decimal_commas, lines)):
-        return lines
-    return [line.replace(",", ".") for line in lines]
+    return [line.replace(",", ".") for line in lines] if has_decimal_commas(lines) else lines
 
 
 def _has_decimal_commas(line: str) -> bool:
