@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import Any, Final, Literal, NoReturn, cast, final
 
 from bladecad.errors import ToleranceError
-from bladecad.tolerance import OFFSETS as EDGE_OFFSETS
 from bladecad.tolerance import (
     EDGE_ZONE,
     PARAMETERS,
@@ -27,6 +26,7 @@ from bladecad.tolerance import (
     ZoneName,
     unit_of,
 )
+from bladecad.tolerance import OFFSETS as EDGE_OFFSETS
 
 Quantity = Literal["length", "angle"]
 

@@ -1,0 +1,286 @@
+"""Chord, thickness, radii and so on of many outlines of one section at once.
+
+An outline is the loop of a station, laid flat, moved. The nominal, the actual and the slightly
+changed outlines that tell the uncertainty go through the same formulas, so an unchanged blade has
+no deviation at all.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Final, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bladecad.arrays import Array, Vector
+from bladecad.deviation.station import SAMPLES, Station
+
+Indices = NDArray[np.intp]
+
+END: Final = 0.05  # of the side: the ends of the chord lie nearer to the edges
+TURNS: Final = 5  # of chord direction and ends, each far better than the one before
+NOSE: Final = np.radians(60.0)  # either way of where the edge points
+INNER: Final = 0.06  # of the side from the edges: circles that touch both sides
+EVERY: Final = 4  # samples between two circles
+WINDOW: Final = 12  # samples either way in which a circle touches the other side
+
+
+def _dot(a: Array, b: Array) -> Array:
+    return np.asarray(np.einsum("...x,...x->...", a, b))
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Formulas:
+    """The numbers of a section as functions of its outline.
+
+    station    : the nominal section
+    le_offsets, te_offsets : mm, where edge thickness is measured
+    """
+
+    station: Station
+    le_offsets: tuple[float, ...]
+    te_offsets: tuple[float, ...]
+
+    def __call__(self, X: Array) -> dict[str, Array]:
+        """All numbers of outlines (m, n, 2), each (m,); mm, degrees and, for the centroid, mm."""
+        le, te, e = self.chord_line(X)
+        along, across = e[:, 0], e[:, 1]
+        found = {
+            "chord": self.chord_scale * np.linalg.norm(te - le, axis=1),
+            "stagger": np.degrees(np.arctan2(-across, along)),
+        }
+        found |= self._circles(X, le, e)
+        found |= self.radii(X) | self._edges(X, le, te, e)
+        return found | self._centroid(X)
+
+    def chord_line(self, X: Array) -> tuple[Array, Array, Array]:
+        """Ends of the chord, and its direction: the longest line from edge to edge; (m, 2) each."""
+        chord = X[:, SAMPLES - 1] - X[:, 0]
+        e = chord / np.linalg.norm(chord, axis=1)[:, None]
+        for _ in range(TURNS):
+            le, te = self._end(X, -e, self.le_ring), self._end(X, e, self.te_ring)
+            e = te - le
+            e = e / np.linalg.norm(e, axis=1)[:, None]
+        return le, te, e
+
+    def _end(self, X: Array, e: Array, ring: Indices) -> Array:
+        """The furthest place of an edge in direction e; the middle of a cut-off one."""
+        if len(ring) <= 2:
+            return np.asarray(X[:, ring].mean(axis=1))
+        return _at(X[:, ring], *_top(_dot(X[:, ring], e[:, None])))
+
+    def _circles(self, X: Array, le: Array, e: Array) -> dict[str, Array]:
+        """The largest circle between the sides, and the furthest centre of any from the chord."""
+        r, centre = self.inscribed(X)
+        away = centre - le[:, None]
+        x, y = _dot(away, e[:, None]), _dot(away, self.up(e)[:, None])
+        k, w = _top(r)
+        thick = 2.0 * _at(r[:, :, None], k, w)[:, 0] * self.scale_at(self.touching[k])
+        bend = float(np.sign(y[0, np.abs(y[0]).argmax()]))
+        return {
+            "maximum thickness": thick,
+            "maximum thickness place": self.chord_scale * _at(x[:, :, None], k, w)[:, 0],
+            "camber": self.chord_scale * bend * _at((bend * y)[:, :, None], *_top(bend * y))[:, 0],
+        }
+
+    def inscribed(self, X: Array) -> tuple[Array, Array]:
+        """Radii and centres of the circles that touch the suction side and the other, (m, i).
+
+        The circle that touches at p with inward normal n and passes through q has the radius
+        |q - p|^2 / (2 n . (q - p)); the inscribed one is the smallest over q.
+        """
+        i = self.touching
+        p = X[:, i]
+        T = _slope(X, i)
+        n = -self.hand * np.stack([T[..., 1], -T[..., 0]], axis=2)
+        q = X[:, self.partners]
+        away = q - p[:, :, None]
+        into = np.maximum(_dot(away, n[:, :, None]), 1e-9)
+        r = -_peak(-_dot(away, away) / (2.0 * into))
+        return r, p + r[..., None] * n
+
+    def radii(self, X: Array) -> dict[str, Array]:
+        """Radii of the round edges of outlines (m, n, 2), each (m,), mm."""
+        return {
+            f"{name} edge radius": _circle(X[:, nose], self._weights(nose))
+            * self.scale_at(nose[len(nose) // 2])
+            for name, nose in (("leading", self.le_nose), ("trailing", self.te_nose))
+            if nose is not None
+        }
+
+    def _edges(self, X: Array, le: Array, te: Array, e: Array) -> dict[str, Array]:
+        found = {}
+        ends = (
+            ("leading", le, e, self.le_offsets),
+            ("trailing", te, -e, self.te_offsets),
+        )
+        for name, end, inwards, offsets in ends:
+            for offset in offsets:
+                key = f"{name} edge thickness at {offset:g} mm"
+                found[key] = self._across(X, end, inwards, offset, name == "trailing")
+        return found
+
+    def _across(self, X: Array, end: Array, e: Array, offset: float, from_te: bool) -> Array:
+        """Thickness across the line from the end of the chord to the middle between the sides."""
+        scale = self.scale_at(SAMPLES - 1 if from_te else 0)
+        order = slice(None, None, -1 if from_te else 1)
+        S, P = (X[:, self.station.side(s)[order]] - end[:, None] for s in ("suction", "pressure"))
+        for _ in range(TURNS):
+            up = self.up(e)
+            a, b = (_crossing(_dot(Y, e[:, None]), Y, offset / scale) for Y in (S, P))
+            middle = 0.5 * (a + b)
+            e = middle / np.linalg.norm(middle, axis=1)[:, None]
+        return np.asarray(scale * np.abs(_dot(a - b, up)))
+
+    def _centroid(self, X: Array) -> dict[str, Array]:
+        """Centroid of the area by Green's formula, in the frame of the machine."""
+        x, y = X[..., 0], X[..., 1]
+        x1, y1 = np.roll(x, -1, axis=1), np.roll(y, -1, axis=1)
+        cross = x * y1 - x1 * y
+        six = 3.0 * cross.sum(axis=1)
+        place = np.stack([((x + x1) * cross).sum(1), ((y + y1) * cross).sum(1)], axis=1)
+        shift = place / six[:, None] - (place[:1] / six[:1, None])
+        scale = float(self.station.scale.mean())
+        along, up = self.nominal_e, self.up(self.nominal_e[None])[0]
+        return {"bow along": scale * shift @ along, "bow across": scale * shift @ up}
+
+    def up(self, e: Array) -> Array:
+        """Directions across some chords, towards the suction side."""
+        return np.asarray(self.hand * np.stack([e[:, 1], -e[:, 0]], axis=1))
+
+    def scale_at(self, k: Indices | int) -> Array:
+        """True over flat length at some points."""
+        return np.asarray(self.station.scale[k])
+
+    @cached_property
+    def hand(self) -> float:
+        """1 where the loop runs counter-clockwise in the flat, else -1."""
+        x, y = self.station.flat.T
+        return float(np.sign(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))))
+
+    @cached_property
+    def nominal_e(self) -> Vector:
+        """Direction of the nominal chord in the flat."""
+        return np.asarray(self.chord_line(self.station.flat[None])[2][0])
+
+    @cached_property
+    def chord_scale(self) -> float:
+        """True over flat length along the chord."""
+        flat, true = (
+            np.linalg.norm(X[SAMPLES - 1] - X[0]) for X in (self.station.flat, self.station.points)
+        )
+        return float(true / flat)
+
+    @cached_property
+    def le_ring(self) -> Indices:
+        """Points about the leading edge, in order; the corners of a cut-off one."""
+        n = len(self.station.t)
+        if self.station.le != "round":
+            return np.array([n - 1, 0]) if self.station.le == "blunt" else np.array([0])
+        near = int(np.searchsorted(self.station.t[:SAMPLES], END))
+        return np.arange(-near, near + 1) % n
+
+    @cached_property
+    def te_ring(self) -> Indices:
+        """Points about the trailing edge, in order; the corners of a cut-off one."""
+        if self.station.te != "round":
+            last = SAMPLES - 1
+            return np.array([last, last + 1]) if self.station.te == "blunt" else np.array([last])
+        near = SAMPLES - 1 - int(np.searchsorted(self.station.t[:SAMPLES], 1.0 - END))
+        return np.arange(SAMPLES - 1 - near, SAMPLES + near)
+
+    @cached_property
+    def le_nose(self) -> Indices | None:
+        """Points of the arc whose radius is measured."""
+        return self._nose(self.le_ring) if self.station.le == "round" else None
+
+    @cached_property
+    def te_nose(self) -> Indices | None:
+        """Points of the arc whose radius is measured."""
+        return self._nose(self.te_ring) if self.station.te == "round" else None
+
+    def _nose(self, ring: Indices) -> Indices:
+        """Points of an edge that face within 60 degrees of where it points, between its sides."""
+        n = self.station.flat_normal[ring]
+        e = n[0] - n[-1]
+        e = self.hand * np.array([-e[1], e[0]]) / np.linalg.norm(e)
+        facing = n @ e > np.cos(NOSE)
+        top = int((self.station.flat[ring] @ e).argmax())
+        first = top - int(np.argmin(np.append(facing[top::-1], False)))
+        last = top + int(np.argmin(np.append(facing[top:], False)))
+        return ring[first + 1 : last]
+
+    def _weights(self, nose: Indices) -> Vector:
+        arc = np.unwrap(self.station.arc[nose], period=self.station.perimeter)
+        return np.asarray(np.gradient(arc))
+
+    @cached_property
+    def touching(self) -> Indices:
+        """Points of the suction side where circles touch it."""
+        t = self.station.t[:SAMPLES]
+        return np.flatnonzero((t > INNER) & (t < 1.0 - INNER))[::EVERY]
+
+    @cached_property
+    def partners(self) -> Indices:
+        """Points of the pressure side that such a circle may touch, (i, 2 WINDOW + 1)."""
+        X, side = self.station.flat, self.station.side("pressure")
+        p, n = X[self.touching], -self.station.flat_normal[self.touching]
+        away = X[side] - p[:, None]
+        into = _dot(away, n[:, None])
+        r = np.where(into > 1e-9, _dot(away, away) / (2.0 * np.maximum(into, 1e-9)), np.inf)
+        centre = np.clip(r.argmin(axis=1), WINDOW, len(side) - 1 - WINDOW)
+        return np.asarray(side[centre[:, None] + np.arange(-WINDOW, WINDOW + 1)])
+
+
+def _top(y: Array) -> tuple[Indices, Vector]:
+    """Where the last axis is largest, by the parabola through three samples: (m,) and offset."""
+    k = np.clip(y.argmax(axis=-1), 1, y.shape[-1] - 2)
+    a, b, c = (np.take_along_axis(y, k[..., None] + i, -1)[..., 0] for i in (-1, 0, 1))
+    bend = a - 2.0 * b + c
+    w = np.divide(0.5 * (a - c), bend, out=np.zeros_like(b), where=bend < 0)
+    return k, np.clip(w, -1.0, 1.0)
+
+
+def _peak(y: Array) -> Array:
+    """Largest value along the last axis, by the parabola through three samples."""
+    k, w = _top(y)
+    a, b, c = (np.take_along_axis(y, k[..., None] + i, -1)[..., 0] for i in (-1, 0, 1))
+    return np.asarray(b + 0.5 * w * (c - a) + 0.5 * w**2 * (a - 2.0 * b + c))
+
+
+def _at(X: Array, k: Indices, w: Vector) -> Array:
+    """Rows of X (m, i, x) at sample k + w, by the parabola through three, (m, x)."""
+    rows = np.arange(len(X))
+    a, b, c = (X[rows, k + i] for i in (-1, 0, 1))
+    w = w[:, None]
+    return np.asarray(b + 0.5 * w * (c - a) + 0.5 * w**2 * (a - 2.0 * b + c))
+
+
+def _slope(X: Array, i: Indices) -> Array:
+    """Unit tangents at some points, by the parabola through each and its neighbours."""
+    after, before = X[:, i + 1] - X[:, i], X[:, i] - X[:, i - 1]
+    h1, h0 = (np.linalg.norm(step, axis=2)[..., None] for step in (after, before))
+    T = after * h0 / h1 + before * h1 / h0
+    return np.asarray(T / np.linalg.norm(T, axis=2)[..., None])
+
+
+def _crossing(x: Array, Y: Array, at: Array) -> Array:
+    """Where lines Y first reach x = at, by the straight line between two samples, (m, 2)."""
+    k = np.maximum((x >= at).argmax(axis=1), 1)
+    rows = np.arange(len(x))
+    w = (at - x[rows, k - 1]) / (x[rows, k] - x[rows, k - 1])
+    return np.asarray(Y[rows, k - 1] + w[:, None] * (Y[rows, k] - Y[rows, k - 1]))
+
+
+def _circle(X: Array, weights: Vector) -> Array:
+    """Radius of the least-squares circle through points (m, i, 2): x^2 + y^2 = 2 a . x + c."""
+    middle = np.average(X, axis=1, weights=weights)
+    X = X - middle[:, None]
+    A = np.concatenate([2.0 * X, np.ones((*X.shape[:2], 1))], axis=2)
+    normal = np.einsum("mia,mib,i->mab", A, A, weights)
+    right = np.einsum("mia,mi,i->ma", A, _dot(X, X), weights)
+    a, b, c = np.linalg.solve(normal, right[..., None])[..., 0].T
+    return np.asarray(np.sqrt(c + a**2 + b**2))
