@@ -66,7 +66,7 @@ def report(product: Product, *, name: str, checks: Checks, files: Mapping[str, P
         "solid": solid_numbers(product, checks.step),
         "mesh": mesh_numbers(product, checks.stl),
         "deviation": _deviation(product.deviation),
-        "files": [_file(kind, path) for kind, path in files.items()],
+        "files": [file_entry(kind, path) for kind, path in files.items()],
         **_tail(product.seconds),
     }
 
@@ -132,11 +132,16 @@ def _head(name: str, within: bool, settings: Any, reasons: tuple[str, ...]) -> R
 
 
 def _tail(seconds: Mapping[str, float]) -> Report:
-    versions = {package: _version(package) for package in PACKAGES}
     return {
         "seconds": {step: round(s, 3) for step, s in seconds.items()},
-        "versions": {**versions, "python": platform.python_version(), "platform": sys.platform},
+        "versions": versions(PACKAGES),
     }
+
+
+def versions(packages: Sequence[str]) -> dict[str, str | None]:
+    """Return the versions of packages, of Python, and the platform."""
+    found = {package: _version(package) for package in packages}
+    return {**found, "python": platform.python_version(), "platform": sys.platform}
 
 
 def _version(package: str) -> str | None:
@@ -199,5 +204,6 @@ def _row(row: Row) -> Report:
     }
 
 
-def _file(kind: str, path: Path) -> Report:
+def file_entry(kind: str, path: Path) -> Report:
+    """Return size and SHA-256 of a file that was written."""
     return {"is": kind, "file": path.name, "bytes": path.stat().st_size, "sha256": sha256(path)}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import Final
 
@@ -22,7 +22,7 @@ from vtkmodules.vtkRenderingCore import (
     vtkWindowToImageFilter,
 )
 
-from bladecad.arrays import Lines, Points
+from bladecad.arrays import Array, Lines, Points
 from bladecad.export.view import View
 from bladecad.surface.ruled import Triangles
 from bladecad.surface.triangulate import BladeMesh
@@ -44,12 +44,16 @@ LINE = 2.4  # pixels, before the picture is halved
 
 def render(mesh: BladeMesh, lines: list[Lines], view: View, pixels_per_mm: float) -> Image:
     """Render a blade with lines drawn on it, (rows, columns, 3), on white."""
+    faces = [_face(mesh.vertices, tri, COLOURS[name]) for name, tri in mesh.faces.items()]
+    return render_actors([*faces, *map(lines_actor, lines)], view, pixels_per_mm)
+
+
+def render_actors(actors: Iterable[vtkActor], view: View, pixels_per_mm: float) -> Image:
+    """Render what was made to be seen, (rows, columns, 3), on white."""
     renderer = vtkRenderer()
     renderer.SetBackground(1.0, 1.0, 1.0)
-    for name, triangles in mesh.faces.items():
-        renderer.AddActor(_face(mesh.vertices, triangles, COLOURS[name]))
-    for line in lines:
-        renderer.AddActor(_lines(line))
+    for actor in actors:
+        renderer.AddActor(actor)
     _light(renderer, view)
     _aim(renderer, view)
     width, height = (max(round(pixels_per_mm * side), 16) for side in view.size)
@@ -58,15 +62,7 @@ def render(mesh: BladeMesh, lines: list[Lines], view: View, pixels_per_mm: float
 
 def _face(vertices: Points, triangles: Triangles, colour: tuple[float, float, float]) -> vtkActor:
     used, ids = np.unique(triangles, return_inverse=True)
-    data = vtkPolyData()
-    data.SetPoints(_points(vertices[used]))
-    data.SetPolys(_cells(ids.reshape(-1, 3)))
-    normals = vtkPolyDataNormals()
-    normals.SetInputData(data)
-    normals.SetFeatureAngle(FEATURE)
-    normals.ConsistencyOff()
-    mapper = vtkPolyDataMapper()
-    mapper.SetInputConnection(normals.GetOutputPort())
+    mapper = _mapper(vertices[used], ids.reshape(-1, 3))
     mapper.ScalarVisibilityOff()
     actor = vtkActor()
     actor.SetMapper(mapper)
@@ -79,7 +75,39 @@ def _face(vertices: Points, triangles: Triangles, colour: tuple[float, float, fl
     return actor
 
 
-def _lines(lines: Lines) -> vtkActor:
+def painted_actor(vertices: Points, triangles: Triangles, colours: Array) -> vtkActor:
+    """Triangles with a colour each, (m, 3) of 0 to 1, in a light that leaves it as it is."""
+    mapper = _mapper(vertices, triangles, colours)
+    mapper.SetScalarModeToUseCellData()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    look = actor.GetProperty()
+    look.SetAmbient(0.62)
+    look.SetDiffuse(0.42)
+    look.SetSpecular(0.04)
+    return actor
+
+
+def _mapper(
+    vertices: Points, triangles: Triangles, colours: Array | None = None
+) -> vtkPolyDataMapper:
+    data = vtkPolyData()
+    data.SetPoints(_points(vertices))
+    data.SetPolys(_cells(triangles))
+    if colours is not None:
+        bytes_ = np.ascontiguousarray(np.rint(255.0 * colours), dtype=np.uint8)
+        data.GetCellData().SetScalars(numpy_to_vtk(bytes_, deep=True))
+    normals = vtkPolyDataNormals()
+    normals.SetInputData(data)
+    normals.SetFeatureAngle(FEATURE)
+    normals.ConsistencyOff()
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputConnection(normals.GetOutputPort())
+    return mapper
+
+
+def lines_actor(lines: Lines) -> vtkActor:
+    """Lines of equally many points, dark, in front of the faces they lie on."""
     m, k, _ = lines.shape
     data = vtkPolyData()
     data.SetPoints(_points(lines.reshape(-1, 3)))
