@@ -26,6 +26,7 @@ class Feet:
     u, t     : (k,) float, span and chordwise place of the foot, see `BladeSurface`
     rim      : (k,) bool, the foot lies on the border at hub or tip: the point stands beyond the
                span, its distance is no deviation and its sign is that of the side
+    unsettled : points whose search was left before the foot stood still
     """
 
     distance: Vector
@@ -36,6 +37,7 @@ class Feet:
     u: Vector
     t: Vector
     rim: Mask
+    unsettled: int = 0
 
     def __post_init__(self) -> None:
         k = len(self.distance)

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from bladecad.arrays import Mask, Points, Vector, seal
 from bladecad.data.sections import Sections
-from bladecad.deviation.foot import project
+from bladecad.deviation.nominal import nominal_of
+from bladecad.deviation.project import project
 from bladecad.deviation.referee import Referee, confirm
 from bladecad.surface.blade import BladeSurface
 from bladecad.surface.triangulate import BladeMesh
@@ -105,7 +106,7 @@ def measure(
     """
     points = np.concatenate([s.points for s in sections.sections])
     counts = [len(s.points) for s in sections.sections]
-    feet = project(surface, points, mesh.u, mesh.t)
+    feet = project(nominal_of(surface), points)
     kept = np.concatenate(keep) if keep else np.ones(len(points), bool)
     return Deviation(
         points,

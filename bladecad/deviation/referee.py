@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bladecad.arrays import Points, Vector
-from bladecad.deviation.foot import Feet
+from bladecad.deviation.feet import Feet
 from bladecad.errors import GeometryError
+from bladecad.surface.ruled import Triangles
 from bladecad.surface.triangulate import BladeMesh
 
 SAMPLE = 1000
@@ -44,15 +45,38 @@ def confirm(mesh: BladeMesh, points: Points, feet: Feet) -> Referee:
     GeometryError
         If it differs from the distance to the surface by more than the triangulation explains.
     """
+    skin = np.concatenate([k for name, k in mesh.faces.items() if name not in CAPS])
+    return confirm_on(mesh.vertices, skin, mesh.chord_error, points, feet, rim_error=mesh.rim_error)
+
+
+def confirm_on(
+    vertices: Points,
+    triangles: Triangles,
+    chord_error: float,
+    points: Points,
+    feet: Feet,
+    *,
+    rim_error: float = 0.0,
+) -> Referee:
+    """Do the same on any triangulation of the nominal, without hub and tip.
+
+    Parameters
+    ----------
+    vertices, triangles : (n, 3) float, mm, and (m, 3) int
+    chord_error, rim_error : float
+        mm, largest distance of the triangles from the nominal, and of their border from its.
+    points : (k, 3) float, mm
+    feet : Feet
+        What `project` found for them.
+    """
     import trimesh
 
     sample = _sample(feet.distance)
-    skin = [k for name, k in mesh.faces.items() if name not in CAPS]
-    body = trimesh.Trimesh(mesh.vertices, np.concatenate(skin), process=False)
+    body = trimesh.Trimesh(vertices, triangles, process=False)
     measured = trimesh.proximity.closest_point(body, points[sample])[1]
-    away = np.abs(measured - np.abs(feet.distance[sample]))
+    away = np.abs(measured - np.linalg.norm(points[sample] - feet.foot[sample], axis=1))
     on_rim = (feet.u[sample] <= RIM) | (feet.u[sample] >= 1.0 - RIM)
-    bound = np.where(on_rim, max(mesh.chord_error, mesh.rim_error), mesh.chord_error)
+    bound = np.where(on_rim, max(chord_error, rim_error), chord_error)
     bound = SLACK * bound + ROUNDING
     k = int((away / bound).argmax())
     if away[k] > bound[k]:

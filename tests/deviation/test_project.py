@@ -1,12 +1,15 @@
 """Distances to a blade surface: against brute force, with their sign, on every kind of face."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from bladecad.curves.sides import split_sides
 from bladecad.data.synthetic import synthetic_blade
-from bladecad.deviation.foot import project
 from bladecad.deviation.measure import measure
+from bladecad.deviation.nominal import nominal_of
+from bladecad.deviation.project import project
 from bladecad.deviation.referee import confirm
 from bladecad.errors import GeometryError
 from bladecad.fit.blade import Order
@@ -39,18 +42,18 @@ def blunt_blade():
 @pytest.mark.parametrize("side", SIDES)
 @pytest.mark.parametrize("d", [0.2, 0.01, -0.01, -0.05])
 def test_a_point_offset_by_d_along_the_normal_stands_at_d(round_blade, side, d):
-    _, surface, mesh = round_blade
+    _, surface, _mesh = round_blade
     points = surface(side, U, T) + d * normals(surface, side, U, T)
-    feet = project(surface, points.reshape(-1, 3), mesh.u, mesh.t)
+    feet = project(nominal_of(surface), points.reshape(-1, 3))
     assert np.abs(feet.distance - d).max() < 1e-9
 
 
 def test_feet_are_the_nearest_places_of_a_dense_search(round_blade):
-    _, surface, mesh = round_blade
+    _, surface, _mesh = round_blade
     rng = np.random.default_rng(5)
     on = surface.at("pressure", rng.random(40), rng.random(40))
     points = on + rng.normal(0, 0.5, (40, 3))
-    feet = project(surface, points, mesh.u, mesh.t)
+    feet = project(nominal_of(surface), points)
     u, t = np.linspace(0, 1, 801), np.linspace(0, 1, 1601)
     for side in SIDES:
         grid = surface(side, u, t).reshape(-1, 3)
@@ -59,16 +62,16 @@ def test_feet_are_the_nearest_places_of_a_dense_search(round_blade):
 
 
 def test_points_on_the_face_of_a_cut_off_edge_lie_on_the_blade(blunt_blade):
-    _, surface, mesh = blunt_blade
+    _, surface, _mesh = blunt_blade
     u, v = np.linspace(0, 1, 7), np.array([0.2, 0.5, 0.8])[:, None, None]
     one = np.ones(1)
     S, P = (surface(s, u, one)[:, 0] for s in SIDES)
     inside = (S + v * (P - S)).reshape(-1, 3)
-    assert np.abs(project(surface, inside, mesh.u, mesh.t).distance).max() < 1e-9
+    assert np.abs(project(nominal_of(surface), inside).distance).max() < 1e-9
     along = surface("suction", u, one, 0, 1)[:, 0]
     out = along / np.linalg.norm(along, axis=1)[:, None]
     beyond = (S + 0.5 * (P - S)) + 0.05 * out
-    away = project(surface, beyond, mesh.u, mesh.t).distance
+    away = project(nominal_of(surface), beyond).distance
     assert (away > 0.03).all()
     assert (away <= 0.05 + 1e-9).all()
 
@@ -83,8 +86,8 @@ def test_trimesh_agrees_within_the_chord_error(round_blade):
 def test_the_referee_refuses_distances_that_are_not_those_of_the_blade(round_blade):
     sections, surface, mesh = round_blade
     points = sections.sections[2].points
-    feet = project(surface, points, mesh.u, mesh.t)
-    wrong = type(feet)(feet.distance + 0.02, feet.suction, feet.u, feet.t)
+    feet = project(nominal_of(surface), points)
+    wrong = replace(feet, foot=feet.foot + 0.02 * feet.normal)
     with pytest.raises(GeometryError, match="trimesh measures point"):
         confirm(mesh, points, wrong)
 
