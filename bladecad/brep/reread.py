@@ -81,6 +81,29 @@ def read_step(path: str | os.PathLike[str]) -> StepFile:
         return _content(document, _text(roots[0]), shapes)
 
 
+def named_faces(path: str | os.PathLike[str]) -> list[tuple[str, cq.Face]]:
+    """Read all faces of a STEP file, each with its name, "" without one.
+
+    Raises
+    ------
+    ExportError
+        If the file cannot be read as STEP, or holds no face.
+    """
+    with statics(SETTINGS), kernel(f"reading {os.fspath(path)}"):
+        document = _document(os.fspath(path))
+        tool = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
+        shapes = [cq.Shape.cast(XCAFDoc_ShapeTool.GetShape_s(root)) for root in _roots(document)]
+        faces = [face for shape in shapes for face in shape.Faces()]
+        if not faces:
+            raise ExportError(f"{os.fspath(path)} holds no face")
+        return [(_face_name(tool, face), face) for face in faces]
+
+
+def _face_name(tool: Any, face: cq.Face) -> str:
+    label = TDF_Label()
+    return _text(label) if tool.Search(face.wrapped, label) else ""
+
+
 def bounds(shape: cq.Shape) -> Array:
     """Return the smallest and the largest corner of the box around a shape, (2, 3) mm."""
     box = shape.BoundingBox()
@@ -140,6 +163,9 @@ def _colours(labels: Mapping[str, tuple[cq.Face, Any]]) -> dict[str, tuple[float
 
 
 def _text(label: Any) -> str:
+    """The name of a label, "" without one; asked for an attribute it lacks, the kernel crashes."""
+    if not label.IsAttribute(TDataStd_Name.GetID_s()):
+        return ""
     attribute = TDataStd_Name()
-    found = label.FindAttribute(TDataStd_Name.GetID_s(), attribute)
-    return str(attribute.Get().ToExtString()) if found else ""
+    label.FindAttribute(TDataStd_Name.GetID_s(), attribute)
+    return str(attribute.Get().ToExtString())
