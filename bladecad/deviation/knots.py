@@ -8,15 +8,17 @@ from typing import Final, final
 import numpy as np
 
 from bladecad.arrays import Array, Mask, Vector, seal
+from bladecad.deviation.station import Station, places
 from bladecad.splines import basis, clamped
+from bladecad.surface.blade import SideName
 
 DEGREE: Final = 3
-AT_EDGE = 0.7  # of the edge radius: knot step there
-GROWTH = 0.6  # of the knot step with the distance from the edge
-BODY = (8, 24)  # knot steps along a side, fewest and most
-POINTS_A_STEP = 12  # that ask for one more
-ENOUGH = 3  # points between two knots
-ALONE = 8  # points on an open stretch, else it has no knots
+TURN: Final = 0.4  # radians by which the outline turns between two knots
+GROWTH: Final = 0.4  # of the knot step with the distance from where the outline turns more
+BODY: Final = (8, 24)  # knot steps along a side, fewest and most
+POINTS_A_STEP: Final = 12  # that ask for one more
+ENOUGH: Final = 3  # points between two knots
+ALONE: Final = 8  # points on an open stretch, else it has no knots
 
 
 @final
@@ -50,31 +52,34 @@ class Round:
         return values[:, :n]
 
 
-def wished(
-    perimeter: float, te: float, radii: tuple[float, float], points: int
-) -> tuple[Vector, Vector]:
+def wished(station: Station, points: int) -> tuple[Vector, Vector]:
     """Return the knots that would follow a section well, along each side, edges included.
 
-    Parameters
-    ----------
-    perimeter, te : arc of the whole loop, and of the trailing edge, mm
-    radii         : of the leading and the trailing edge, mm
-    points        : that were measured
+    They stand where the outline has turned by a share of a radian, and not much further apart
+    beside that; `points` is how many were measured.
     """
     steps = float(np.clip(points / 2 / POINTS_A_STEP, *BODY))
-    there = _graded(te, radii[0], radii[1], te / steps)
-    back = _graded(perimeter - te, radii[1], radii[0], (perimeter - te) / steps)
-    return there, te + back
+    te, end = station.te_arc, station.perimeter
+    there = _graded(station, "suction", 0.0, te, te / steps)
+    return there, _graded(station, "pressure", te, end, (end - te) / steps)
 
 
-def _graded(length: float, first: float, last: float, body: float) -> Vector:
-    """Steps from one edge to the other, growing away from both."""
-    x = np.linspace(0.0, length, 2001)
-    step = np.minimum(AT_EDGE * first + GROWTH * x, AT_EDGE * last + GROWTH * (length - x))
-    rate = 1.0 / np.minimum(step, body)
-    mass = np.concatenate([[0.0], np.cumsum(0.5 * (rate[1:] + rate[:-1]) * np.diff(x))])
+def _graded(station: Station, name: SideName, first: float, last: float, body: float) -> Vector:
+    """Knots from one edge to the other, in the order of the arc."""
+    t = places()
+    arc = station.arc_of(np.full(len(t), name == "suction"), t)
+    n = station.flat_normal[station.side(name)]
+    if name == "pressure":
+        arc, n = arc[::-1], n[::-1]
+    turn = np.arccos(np.clip(np.einsum("ix,ix->i", n[1:], n[:-1]), -1.0, 1.0))
+    step = np.minimum(body, TURN * np.diff(arc) / np.maximum(turn, 1e-12))
+    middle = 0.5 * (arc[1:] + arc[:-1])
+    step = np.min(step + GROWTH * np.abs(middle[:, None] - middle), axis=1)
+    mass = np.concatenate([[0.0], np.cumsum(np.diff(arc) / step)])
     count = max(int(np.ceil(mass[-1])), 2)
-    return np.interp(np.linspace(0.0, mass[-1], count + 1), mass, x)
+    knots = np.interp(np.linspace(0.0, mass[-1], count + 1), mass, arc)
+    knots[0], knots[-1] = first, last
+    return knots
 
 
 def supported(

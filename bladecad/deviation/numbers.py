@@ -73,7 +73,7 @@ def contours(formula: Formulas, trend: Trend, tolerances: Tolerances) -> list[Nu
     """
     found = []
     for region, where in _regions(formula.station, tolerances).items():
-        d, half, share = _on(trend, where)
+        d, half, share = _on(trend, formula.station, where)
         reason = "" if share >= MOST else f"{100 * share:.0f} % of it is measured"
         for kind, pick in (("min", np.argmin), ("max", np.argmax)):
             name = f"{region} contour {kind}"
@@ -126,9 +126,9 @@ def _regions(station: Station, tolerances: Tolerances) -> dict[str, Mask]:
     return {name: where for name, where in found.items() if where.any()}
 
 
-def _on(trend: Trend, where: Mask) -> tuple[Array, float, float]:
+def _on(trend: Trend, station: Station, where: Mask) -> tuple[Array, float, float]:
     """Deviation on a stretch, half width of its simultaneous interval, share that is measured."""
-    share = float(trend.measured[where].mean())
+    share = float(np.average(trend.measured[where], weights=station.lengths[where]))
     there = where & trend.measured
     if trend.round is None or not there.any():
         return np.zeros(0), 0.0, 0.0
@@ -140,7 +140,9 @@ def _on(trend: Trend, where: Mask) -> tuple[Array, float, float]:
 def _missing(name: str, formula: Formulas, trend: Trend) -> str:
     """Why the points do not tell a number, or ""."""
     where, least = _needs(name, formula)
-    share = float(np.min([trend.measured[part].mean() for part in where]))
+    weight = formula.station.lengths
+    shares = [np.average(trend.measured[part], weights=weight[part]) for part in where]
+    share = float(np.min(shares))
     if share < least:
         return f"{100 * share:.0f} % of the outline that makes it is measured"
     ends = {"leading": (True, False), "trailing": (False, True)}.get(name.split()[0], (True, True))

@@ -23,6 +23,7 @@ END: Final = 0.05  # of the side: the ends of the chord lie nearer to the edges
 TURNS: Final = 5  # of chord direction and ends, each far better than the one before
 NOSE: Final = np.radians(60.0)  # either way of where the edge points
 INNER: Final = 0.06  # of the side from the edges: circles that touch both sides
+TOP: Final = 0.97  # of the largest circle: its place is the middle of those larger than that
 EVERY: Final = 4  # samples between two circles
 WINDOW: Final = 12  # samples either way in which a circle touches the other side
 
@@ -82,7 +83,7 @@ class Formulas:
         bend = float(np.sign(y[0, np.abs(y[0]).argmax()]))
         return {
             "maximum thickness": thick,
-            "maximum thickness place": self.chord_scale * _at(x[:, :, None], k, w)[:, 0],
+            "maximum thickness place": self.chord_scale * _middle_of_top(r, x),
             "camber": self.chord_scale * bend * _at((bend * y)[:, :, None], *_top(bend * y))[:, 0],
         }
 
@@ -104,12 +105,25 @@ class Formulas:
 
     def radii(self, X: Array) -> dict[str, Array]:
         """Radii of the round edges of outlines (m, n, 2), each (m,), mm."""
-        return {
-            f"{name} edge radius": _circle(X[:, nose], self._weights(nose))
-            * self.scale_at(nose[len(nose) // 2])
-            for name, nose in (("leading", self.le_nose), ("trailing", self.te_nose))
-            if nose is not None
-        }
+        found = {}
+        for name, kind, ring in (
+            ("leading", self.station.le, self.le_ring),
+            ("trailing", self.station.te, self.te_ring),
+        ):
+            if kind == "round":
+                facing = np.maximum(self._facing(X, ring) - np.cos(NOSE), 0.0)
+                radius = _circle(X[:, ring[1:-1]], facing * self.station.lengths[ring[1:-1]])
+                found[f"{name} edge radius"] = radius * self.scale_at(ring[len(ring) // 2])
+        return found
+
+    def _facing(self, X: Array, ring: Indices) -> Array:
+        """Cosine between the normals of an edge and where it points, halfway between its sides."""
+        T = _slope(X[:, ring], np.arange(1, len(ring) - 1))
+        n = self.hand * np.stack([T[..., 1], -T[..., 0]], axis=2)
+        e = n[:, 0] - n[:, -1]
+        e = self.hand * np.stack([-e[:, 1], e[:, 0]], axis=1)
+        e = e / np.linalg.norm(e, axis=1)[:, None]
+        return _dot(n, e[:, None])
 
     def _edges(self, X: Array, le: Array, te: Array, e: Array) -> dict[str, Array]:
         found = {}
@@ -136,13 +150,8 @@ class Formulas:
         return np.asarray(scale * np.abs(_dot(a - b, up)))
 
     def _centroid(self, X: Array) -> dict[str, Array]:
-        """Centroid of the area by Green's formula, in the frame of the machine."""
-        x, y = X[..., 0], X[..., 1]
-        x1, y1 = np.roll(x, -1, axis=1), np.roll(y, -1, axis=1)
-        cross = x * y1 - x1 * y
-        six = 3.0 * cross.sum(axis=1)
-        place = np.stack([((x + x1) * cross).sum(1), ((y + y1) * cross).sum(1)], axis=1)
-        shift = place / six[:, None] - (place[:1] / six[:1, None])
+        """Shift of the centroid of the area from that of the nominal."""
+        shift = _centroids(X) - _centroids(self.station.flat[None])
         scale = float(self.station.scale.mean())
         along, up = self.nominal_e, self.up(self.nominal_e[None])[0]
         return {"bow along": scale * shift @ along, "bow across": scale * shift @ up}
@@ -204,18 +213,8 @@ class Formulas:
 
     def _nose(self, ring: Indices) -> Indices:
         """Points of an edge that face within 60 degrees of where it points, between its sides."""
-        n = self.station.flat_normal[ring]
-        e = n[0] - n[-1]
-        e = self.hand * np.array([-e[1], e[0]]) / np.linalg.norm(e)
-        facing = n @ e > np.cos(NOSE)
-        top = int((self.station.flat[ring] @ e).argmax())
-        first = top - int(np.argmin(np.append(facing[top::-1], False)))
-        last = top + int(np.argmin(np.append(facing[top:], False)))
-        return ring[first + 1 : last]
-
-    def _weights(self, nose: Indices) -> Vector:
-        arc = np.unwrap(self.station.arc[nose], period=self.station.perimeter)
-        return np.asarray(np.gradient(arc))
+        facing = self._facing(self.station.flat[None], ring)[0] > np.cos(NOSE)
+        return np.asarray(ring[1:-1][facing])
 
     @cached_property
     def touching(self) -> Indices:
@@ -244,6 +243,12 @@ def _top(y: Array) -> tuple[Indices, Vector]:
     return k, np.clip(w, -1.0, 1.0)
 
 
+def _middle_of_top(r: Array, x: Array) -> Array:
+    """Middle of the stretch of x where r is near its largest value, (m,)."""
+    w = np.maximum(r - TOP * r.max(axis=1)[:, None], 0.0) * np.gradient(x, axis=1)
+    return np.asarray((w * x).sum(axis=1) / w.sum(axis=1))
+
+
 def _peak(y: Array) -> Array:
     """Largest value along the last axis, by the parabola through three samples."""
     k, w = _top(y)
@@ -267,6 +272,15 @@ def _slope(X: Array, i: Indices) -> Array:
     return np.asarray(T / np.linalg.norm(T, axis=2)[..., None])
 
 
+def _centroids(X: Array) -> Array:
+    """Centroids of the areas in loops (m, n, 2), by Green's formula, (m, 2)."""
+    x, y = X[..., 0], X[..., 1]
+    x1, y1 = np.roll(x, -1, axis=1), np.roll(y, -1, axis=1)
+    cross = x * y1 - x1 * y
+    place = np.stack([((x + x1) * cross).sum(1), ((y + y1) * cross).sum(1)], axis=1)
+    return np.asarray(place / (3.0 * cross.sum(axis=1))[:, None])
+
+
 def _crossing(x: Array, Y: Array, at: Array) -> Array:
     """Where lines Y first reach x = at, by the straight line between two samples, (m, 2)."""
     k = np.maximum((x >= at).argmax(axis=1), 1)
@@ -275,12 +289,12 @@ def _crossing(x: Array, Y: Array, at: Array) -> Array:
     return np.asarray(Y[rows, k - 1] + w[:, None] * (Y[rows, k] - Y[rows, k - 1]))
 
 
-def _circle(X: Array, weights: Vector) -> Array:
+def _circle(X: Array, w: Array) -> Array:
     """Radius of the least-squares circle through points (m, i, 2): x^2 + y^2 = 2 a . x + c."""
-    middle = np.average(X, axis=1, weights=weights)
-    X = X - middle[:, None]
+    X = X - (np.einsum("mix,mi->mx", X, w) / w.sum(axis=1)[:, None])[:, None]
     A = np.concatenate([2.0 * X, np.ones((*X.shape[:2], 1))], axis=2)
-    normal = np.einsum("mia,mib,i->mab", A, A, weights)
-    right = np.einsum("mia,mi,i->ma", A, _dot(X, X), weights)
+    weighted = A * w[..., None]
+    normal = np.swapaxes(weighted, 1, 2) @ A
+    right = np.einsum("mia,mi->ma", weighted, _dot(X, X))
     a, b, c = np.linalg.solve(normal, right[..., None])[..., 0].T
     return np.asarray(np.sqrt(c + a**2 + b**2))

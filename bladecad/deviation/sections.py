@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Final
 
 import numpy as np
 
@@ -17,8 +16,6 @@ from bladecad.deviation.section_result import SectionResult
 from bladecad.deviation.station import Station, stations_at
 from bladecad.deviation.trend import Trend, trend
 from bladecad.tolerance import PARAMETERS, Tolerances
-
-CUT_OFF: Final = 0.01  # of the side: step of the curve beside a cut-off edge
 
 
 def section_results(
@@ -51,18 +48,10 @@ def _at(
     station: Station, feet: Feet, tolerances: Tolerances
 ) -> tuple[Formulas, Trend, list[Number]]:
     formula = formulas(station, tolerances)
-    fitted = trend(station, feet, _radii(formula))
+    fitted = trend(station, feet)
     found = numbers(formula, fitted, tolerances)
     found += contours(formula, fitted, tolerances)
     return formula, fitted, found
-
-
-def _radii(formula: Formulas) -> tuple[float, float]:
-    """Radii of the edges, mm; of a cut-off one, how finely to look beside it."""
-    found = formula.radii(formula.station.flat[None])
-    cut = CUT_OFF * formula.station.perimeter / 2.0
-    le, te = (found.get(f"{end} edge radius", np.array([cut])) for end in ("leading", "trailing"))
-    return float(le[0]), float(te[0])
 
 
 def _result(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Final, final
 
 import numpy as np
@@ -56,6 +57,12 @@ class Station:
         n = len(self.t)
         seal(self, points=(n, 3), normal=(n, 3), flat=(n, 2), flat_normal=(n, 2), t=(n,))
         seal(self, scale=(n,), stretch=(n,), arc=(n,))
+
+    @cached_property
+    def lengths(self) -> Vector:
+        """Length of the loop that each point stands for, (n,), mm."""
+        steps = np.linalg.norm(np.diff(self.points, axis=0, append=self.points[:1]), axis=1)
+        return np.asarray(0.5 * (steps + np.roll(steps, 1)))
 
     @property
     def te_arc(self) -> float:

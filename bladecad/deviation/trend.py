@@ -16,10 +16,13 @@ from bladecad.deviation.knots import Round, reached, supported, wished
 from bladecad.deviation.station import Station
 
 NEAR: Final = 0.025  # of the span: points further from a station do not speak for it
-MANY: Final = 4000  # points that speak for a station, the nearest
+MANY: Final = (1500, 2500)  # points that speak for a station: the nearest at edges, and elsewhere
+BESIDE_EDGE: Final = 0.03  # of the side
 SLOPES: Final = 4  # knots of the curve for one of its slope along the span
 LEVEL: Final = 1e-6  # of the span: points on one line tell no slope
 OUTLIER: Final = 5.0  # sigma
+CAUCHY: Final = 2.385  # sigma, of weights that keep 95 % of what the points tell
+ROUNDS: Final = 5  # of such weights
 FLOOR: Final = 5e-3  # mm, never an outlier
 FEW: Final = 0.02  # share of the points: more are no outliers, but a shape the curve cannot follow
 ROUNDING: Final = 1e-12
@@ -74,15 +77,13 @@ class Trend:
         return np.asarray(np.sqrt(np.maximum(variance, 0.0)))
 
 
-def trend(station: Station, feet: Feet, radii: tuple[float, float]) -> Trend:
+def trend(station: Station, feet: Feet) -> Trend:
     """Fit the deviation of the points near a station by least squares.
 
     Parameters
     ----------
     feet : Feet
         Of any points; those beyond the span are left out.
-    radii : (float, float)
-        Of the leading and the trailing edge, mm: how dense the curve must be there.
 
     Notes
     -----
@@ -95,7 +96,7 @@ def trend(station: Station, feet: Feet, radii: tuple[float, float]) -> Trend:
     on_face = np.isin(feet.face[near], EDGE_FACES)
     side, face = near[~on_face], near[on_face]
     arc = station.arc_of(feet.suction[side], feet.t[side])
-    sides = wished(station.perimeter, station.te_arc, radii, len(side))
+    sides = wished(station, len(side))
     splines = supported(sides, arc, open_te=station.te == "blunt", closed=station.le != "blunt")
     if splines is None:
         return _nothing(station, len(near))
@@ -130,9 +131,16 @@ def _near(station: Station, feet: Feet) -> NDArray[np.intp]:
     """Numbers of the points that speak for a station."""
     away = np.abs(feet.u - station.u)
     found = np.flatnonzero((away < NEAR) & ~feet.rim)
-    if len(found) > MANY:
-        found = found[np.argpartition(away[found], MANY)[:MANY]]
-    return found
+    t = feet.t[found]
+    edge = (t < BESIDE_EDGE) | (t > 1.0 - BESIDE_EDGE)
+    parts = [found[edge], found[~edge]]
+    return np.concatenate(
+        [_nearest(part, away[part], most) for part, most in zip(parts, MANY, strict=True)]
+    )
+
+
+def _nearest(found: NDArray[np.intp], away: Vector, most: int) -> NDArray[np.intp]:
+    return found if len(found) <= most else found[np.argpartition(away, most)[:most]]
 
 
 def _slopes(A: Array) -> Array:
@@ -144,21 +152,31 @@ def _fitted(A: Array, d: Vector) -> tuple[Vector, Vector, Mask, Array]:
     """Coefficients, residuals, which points were kept, and (A^T A)^-1."""
     kept = np.ones(len(d), bool)
     c, r, G = _least_squares(A, d, kept)
-    for _ in range(2):
-        sigma = 1.4826 * np.median(np.abs(r)) * np.sqrt(len(d) / max(len(d) - A.shape[1], 1))
-        good = np.abs(r) <= max(OUTLIER * sigma, FLOOR)
-        if good.mean() < 1.0 - FEW or np.array_equal(good, kept):
-            break
-        kept = good
-        c, r, G = _least_squares(A, d, kept)
+    bound = max(OUTLIER * _sigma(r, A.shape[1]), FLOOR)
+    if np.abs(r).max() <= bound:
+        return c, r, kept, G
+    for _ in range(ROUNDS):
+        scale = max(CAUCHY * _sigma(r, A.shape[1]), FLOOR / OUTLIER)
+        r = _least_squares(A, d, 1.0 / (1.0 + (r / scale) ** 2))[1]
+    good = np.abs(r) <= max(OUTLIER * _sigma(r, A.shape[1]), FLOOR)
+    kept = good if good.mean() >= 1.0 - FEW else kept
+    c, r, G = _least_squares(A, d, kept)
     return c, r, kept, G
 
 
-def _least_squares(A: Array, d: Vector, kept: Mask) -> tuple[Vector, Vector, Array]:
-    normal = A.T @ (A * kept[:, None])
+def _sigma(r: Vector, coefficients: int) -> float:
+    """Standard deviation of points about a curve, whatever a few of them do."""
+    freedom = max(len(r) - coefficients, 1)
+    return float(1.4826 * np.median(np.abs(r)) * np.sqrt(len(r) / freedom))
+
+
+def _least_squares(A: Array, d: Vector, w: Vector | Mask) -> tuple[Vector, Vector, Array]:
+    """Coefficients, residuals, and (A^T W A)^-1."""
+    weighted = A * w[:, None]
+    normal = weighted.T @ A
     normal += ROUNDING * np.trace(normal) / len(normal) * np.eye(len(normal))
     G = np.linalg.inv(normal)
-    c = G @ (A.T @ (kept * d))
+    c = G @ (weighted.T @ d)
     return c, d - A @ c, np.asarray(G)
 
 

@@ -51,6 +51,14 @@ def feet_at(surface, suction, u, t, d, face=None, rim=None) -> Feet:
     return Feet(d, foot, normal, face.astype(np.int8), suction, u, t, rim)
 
 
+def placed(suction, u, t, d=0.0) -> Feet:
+    """Feet of which only side, u, t and deviation are told."""
+    k, nowhere = len(u), np.zeros((len(u), 3))
+    face = np.where(suction, 0, 1).astype(np.int8)
+    d = np.broadcast_to(d, k)
+    return Feet(d, nowhere, nowhere, face, suction, u, t, np.zeros(k, bool))
+
+
 def strewn(count, seed=0, low=0.0, high=1.0):
     """Side, u and t of points strewn over a blade."""
     rng = np.random.default_rng(seed)

@@ -7,7 +7,7 @@ from bladecad.deviation.coverage import map_of
 from bladecad.deviation.nominal import nominal_of
 from bladecad.surface.loft import SIDES
 from bladecad.tolerance import Tolerances, uniform
-from tests.deviation.scanned import blade, feet_at, strewn
+from tests.deviation.scanned import blade, feet_at, placed, strewn
 
 
 def area_of(name, u, t):
@@ -18,7 +18,7 @@ def area_of(name, u, t):
 
 
 def mapped(suction, u, t, d=0.0, tolerances=None):
-    feet = feet_at(blade(), suction, u, t, d)
+    feet = placed(suction, u, t, d)
     return map_of(nominal_of(blade()), feet, tolerances or uniform(0.1))
 
 

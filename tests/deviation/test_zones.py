@@ -9,7 +9,7 @@ from bladecad.deviation.nominal import nominal_of
 from bladecad.deviation.worst import worst_places
 from bladecad.deviation.zones import ZONES, excess, zone_of, zone_results
 from bladecad.tolerance import Band, Tolerances, uniform
-from tests.deviation.scanned import blade, feet_at, strewn
+from tests.deviation.scanned import blade, feet_at, placed, strewn
 
 ALL = Tolerances(
     {name: Band(-0.01 * (k + 1), 0.02 * (k + 1)) for k, name in enumerate(ZONES)},
@@ -79,7 +79,7 @@ def test_a_blade_offset_by_d_is_off_by_d_in_every_zone_sign_included(d):
 def test_the_area_of_a_bump_is_found_in_its_zone_alone():
     suction, u, t = strewn(200_000, 4)
     bump = suction & (np.abs(u - 0.5) < 0.1) & (np.abs(t - 0.5) < 0.15)
-    feet = feet_at(blade(), suction, u, t, np.where(bump, 0.1, 0.0))
+    feet = placed(suction, u, t, np.where(bump, 0.1, 0.0))
     found = results(feet, uniform(0.05))[3]
     x = np.linspace(-1, 1, 101)
     U, T = 0.5 + 0.1 * x, 0.5 + 0.15 * x
