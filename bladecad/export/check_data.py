@@ -89,15 +89,7 @@ def _mesh(inspection: Inspection, blade: Painted, zone: int, known: bool) -> Dat
         band = inspection.tolerances.zones[ZONES[zone]]
         out = np.sign(part.extreme) * (band.excess(part.extreme) > 0.0)
         data |= {"mean": packed(part.mean), "extreme": packed(part.extreme), "out": packed(out)}
-        data["hover"] = packed(_at_vertices(part))
     return data
-
-
-def _at_vertices(part: Painted) -> ArrayLike:
-    """Mean deviation around every vertex, mm."""
-    corners, values = part.triangles.ravel(), np.repeat(part.mean, 3)
-    total = np.bincount(corners, values, len(part.vertices))
-    return total / np.maximum(np.bincount(corners, minlength=len(part.vertices)), 1)
 
 
 def _section(w: Whiskers) -> Data:

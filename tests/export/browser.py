@@ -6,7 +6,7 @@ import io
 import json
 import shutil
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -95,6 +95,28 @@ def picture(chrome: Any, selector: str) -> np.ndarray:
     chrome.execute_script("arguments[0].scrollIntoView({block: 'center'})", element)
     settled(chrome)
     return matplotlib.image.imread(io.BytesIO(element.screenshot_as_png))[..., :3]
+
+
+def seen(
+    chrome: Any, selector: str, condition: Callable[[np.ndarray], bool], patience: float = 30.0
+) -> np.ndarray:
+    """The picture of an element as soon as it is as expected; the last one if it never is."""
+    image = picture(chrome, selector)
+
+    def again() -> bool:
+        nonlocal image
+        image = picture(chrome, selector)
+        return condition(image)
+
+    until(again, patience)
+    return image
+
+
+def until(condition: Callable[[], bool], patience: float = 30.0) -> None:
+    """Wait until something holds, or patience ends."""
+    end = time.monotonic() + patience
+    while not condition() and time.monotonic() < end:
+        time.sleep(0.2)
 
 
 def click(chrome: Any, selector: str) -> None:

@@ -4,7 +4,17 @@ import numpy as np
 import pytest
 
 from bladecad.export.check_files import export_check
-from tests.export.browser import browser, click, complaints, opened, picture, requests, settled
+from tests.export.browser import (
+    browser,
+    click,
+    complaints,
+    opened,
+    picture,
+    requests,
+    seen,
+    settled,
+    until,
+)
 from tests.export.inspections import checked, inspection
 
 
@@ -57,45 +67,61 @@ def test_nothing_stands_beyond_the_right_border(chrome):
     assert wide <= seen
 
 
+def red(image):
+    return int((image[..., 0] - image[..., 2] > 0.35).sum())
+
+
+def blue(image):
+    return int((image[..., 2] - image[..., 0] > 0.15).sum())
+
+
+def opening_scene(chrome):
+    """The blade from its suction side, where the bump is."""
+    return seen(fresh(chrome), "#scene", lambda image: red(image) > 200)
+
+
 def test_the_blade_is_drawn_in_the_colours_of_its_deviation(chrome):
-    image = picture(fresh(chrome), "#scene")
+    image = opening_scene(chrome)
     drawn = np.abs(image - 1.0).max(axis=2) > 0.02
     assert 0.05 < drawn.mean() < 0.95
-    red, blue = image[..., 0] - image[..., 2] > 0.35, image[..., 2] - image[..., 0] > 0.15
-    assert red.sum() > 200
-    assert blue.sum() > 200
+    assert red(image) > 200
+    assert blue(image) > 200
 
 
-def test_a_view_from_the_other_side_shows_another_picture(chrome):
-    before = picture(fresh(chrome), "#scene")
+def test_a_view_from_the_other_side_hides_the_bump(chrome):
+    assert red(opening_scene(chrome)) > 200
     click(chrome, press("views", "pressure side"))
-    after = picture(chrome, "#scene")
-    assert np.abs(after - before).max(axis=2).mean() > 0.01
+    image = seen(chrome, "#scene", lambda image: red(image) < 20 and blue(image) > 100)
+    assert red(image) < 20
+    assert blue(image) > 100
 
 
 def test_the_blade_turns_under_the_mouse(chrome):
     from selenium.webdriver import ActionChains
     from selenium.webdriver.common.by import By
 
-    before = picture(fresh(chrome), "#scene")
+    before = opening_scene(chrome)
     scene = chrome.find_element(By.CSS_SELECTOR, "#scene")
-    ActionChains(chrome).move_to_element(scene).click_and_hold().move_by_offset(
-        150, 20
-    ).release().perform()
-    settled(chrome)
-    assert np.abs(picture(chrome, "#scene") - before).max(axis=2).mean() > 0.01
+    drag = ActionChains(chrome).move_to_element(scene).click_and_hold().pause(0.3)
+    for _ in range(5):
+        drag = drag.move_by_offset(30, 4).pause(0.2)  # the scene looks once a frame
+    drag.release().perform()
+
+    def turned(image):
+        return np.abs(image - before).max(axis=2).mean() > 0.01 and red(image) + blue(image) > 100
+
+    assert turned(seen(chrome, "#scene", turned))
+    assert complaints(chrome) == []
 
 
 def test_a_zone_that_is_picked_leaves_the_others_pale(chrome):
-    image = picture(fresh(chrome), "#scene")
-    bump = (image[..., 0] - image[..., 2] > 0.35).sum()
+    bump = red(opening_scene(chrome))
     click(chrome, press("zones", "leading edge"))
-    image = picture(chrome, "#scene")
-    assert (image[..., 0] - image[..., 2] > 0.35).sum() < 0.05 * bump  # it is on the suction side
-    assert (image[..., 2] - image[..., 0] > 0.15).sum() > 100  # the worn leading edge stays
+    image = seen(chrome, "#scene", lambda image: red(image) < 0.05 * bump and blue(image) > 100)
+    assert red(image) < 0.05 * bump  # the bump is on the suction side
+    assert blue(image) > 100  # the worn leading edge stays
     click(chrome, press("zones", ""))
-    image = picture(chrome, "#scene")
-    assert (image[..., 0] - image[..., 2] > 0.35).sum() > 0.9 * bump
+    assert red(seen(chrome, "#scene", lambda image: red(image) > 0.9 * bump)) > 0.9 * bump
 
 
 def test_a_zone_that_is_picked_has_its_own_histogram(chrome):
@@ -134,16 +160,24 @@ def test_an_edge_is_shown_large_with_its_own_magnification(chrome):
     assert whiskers(chrome)[1] != whole
 
 
-def test_a_click_on_the_blade_picks_the_section_nearest_to_it(chrome):
-    click(fresh(chrome), press("stations", 0))
-    found = inspection(count=3000)
-    x, y, z = found.sections[2].outline[20]
-    chrome.execute_script(
-        "document.getElementById('scene').emit('plotly_click',"
-        "{points: [{x: arguments[0], y: arguments[1], z: arguments[2]}]})", x, y, z,
-    )  # fmt: skip
-    settled(chrome)
-    assert "Section S3" in whiskers(chrome)[1]
+@pytest.mark.parametrize(("height", "name"), [(0.15, "S3"), (0.9, "S1")])
+def test_a_click_on_the_blade_picks_the_section_nearest_to_it(chrome, height, name):
+    from selenium.webdriver import ActionChains
+    from selenium.webdriver.common.by import By
+
+    image = opening_scene(chrome)
+    click(chrome, press("stations", 1))
+    image = picture(chrome, "#scene")
+    filled = np.abs(image - 1.0).max(axis=2) > 0.02
+    rows = np.flatnonzero(filled.mean(axis=1) > 0.12)  # of the blade, its axes are thin
+    row = int(rows[0] + height * (rows[-1] - rows[0]))
+    column = int(np.median(np.flatnonzero(filled[row])))
+    scene = chrome.find_element(By.CSS_SELECTOR, "#scene")
+    x, y = column - image.shape[1] // 2, row - image.shape[0] // 2
+    ActionChains(chrome).move_to_element_with_offset(scene, x, y).pause(1.0).click().perform()
+    until(lambda: f"Section {name}" in whiskers(chrome)[1])
+    assert f"Section {name}" in whiskers(chrome)[1]
+    assert complaints(chrome) == []
 
 
 def test_on_paper_every_section_is_there_and_no_pane_that_needs_a_mouse(chrome):

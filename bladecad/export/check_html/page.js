@@ -43,9 +43,14 @@
     };
     if (!mesh.known) return { ...trace, color: plain(mesh) };
     return {
-      ...trace, ...paint(mesh), intensitymode: "cell", showscale: false, customdata: mesh.hover,
-      hovertemplate: `<b>${mesh.zone}</b><br>deviation about %{customdata:+.4f} mm<br>x %{x:.2f}, y %{y:.2f}, z %{z:.2f} mm<extra></extra>`,
+      ...trace, ...paint(mesh), intensitymode: "cell", showscale: false, customdata: cells(mesh),
+      hovertemplate: `<b>${mesh.zone}</b><br>mean of the cell %{customdata[0]:+.4f} mm<br>largest %{customdata[1]:+.4f} mm<br>x %{customdata[2]:.2f}, y %{customdata[3]:.2f}, z %{customdata[4]:.2f} mm<extra></extra>`,
     };
+  }
+  // plotly counts cells here, not vertices, and tells the place of a cell in units of its own
+  function cells(mesh) {
+    const middle = (values, n) => (values[mesh.i[n]] + values[mesh.j[n]] + values[mesh.k[n]]) / 3;
+    return Array.from(mesh.i, (_, n) => [mesh.mean[n], mesh.extreme[n], ...[mesh.x, mesh.y, mesh.z].map((values) => middle(values, n))]);
   }
   const plain = (mesh) => (picked(mesh) || !mesh.zone ? (mesh.zone ? ink.unknown : ink.cap) : "#e4e6e9");
   function paint(mesh) {
@@ -102,7 +107,7 @@
     const all = Object.fromEntries([...names].map((name) => [name, changes.map((change) => change[name])]));
     return Plotly.restyle(scene, all, numbers);
   }
-  function nearestSection({ x, y, z }) {
+  function nearestSection([x, y, z]) {
     let best = -1, least = Infinity;
     data.sections.forEach((section, k) => {
       const [X, Y, Z] = section.track;
@@ -112,6 +117,24 @@
       }
     });
     return best;
+  }
+
+  // plotly tells of a click again in every frame while the button is down, drags too, and from inside the drawing
+  function pickUnderMouse() {
+    let under = null, down = null;
+    const over = ({ points: [{ x, y, z, curveNumber, customdata }] }) => {
+      const mesh = data.meshes[curveNumber];
+      under = mesh && mesh.known ? customdata.slice(2) : [x, y, z];
+    };
+    scene.on("plotly_hover", over);
+    scene.on("plotly_click", over);
+    scene.on("plotly_unhover", () => { under = null; });
+    scene.addEventListener("pointerdown", (event) => { down = [event.clientX, event.clientY]; }, true);
+    window.addEventListener("pointerup", (event) => {
+      const still = down && Math.hypot(event.clientX - down[0], event.clientY - down[1]) < 4;
+      down = null;
+      if (still) setTimeout(() => under && pickSection(nearestSection(under)), 60);
+    }, true);
   }
 
   // The whiskers of one section
@@ -275,7 +298,7 @@
     if (webgl()) {
       await drawScene();
       drawn3d = true;
-      scene.on("plotly_click", ({ points: [point] }) => pickSection(nearestSection(point)));
+      pickUnderMouse();
     } else {
       root.classList.add("no-webgl");
     }
