@@ -131,7 +131,7 @@ def inspect(
     out = excess(feet.distance, zone, tolerances)
     map_ = map_of(nominal, feet, tolerances)
     zones = zone_results(feet, zone, out > 0.0, map_, tolerances)
-    worst = worst_places(feet, zone, out, map_, named)
+    worst = worst_places(feet, zone, out, named)
     clock.lap("zones")
     with threadpool_limits(1):
         sections = section_results(nominal, feet, named, tolerances, axis=axis)

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 from typing import Final, final
 
 import numpy as np
+from scipy.interpolate import BSpline
 
 from bladecad.arrays import Array, Mask, Vector, seal
 from bladecad.deviation.station import Station, places
-from bladecad.splines import basis, clamped
+from bladecad.splines import clamped
 from bladecad.surface.blade import SideName
 
 DEGREE: Final = 3
@@ -44,12 +45,17 @@ class Round:
         again = [] if self.te is None else [self.te] * DEGREE
         loop = np.sort(np.concatenate([self.breaks[:-1], again]))
         if not self.closed:
-            return basis(clamped(np.append(loop, last), DEGREE), DEGREE, np.clip(arc, first, last))
+            return _splines(clamped(np.append(loop, last), DEGREE), np.clip(arc, first, last))
         n, once = len(loop), last - first
         around = [loop[-DEGREE:] - once, loop, loop[: DEGREE + 1] + once]
-        values = basis(np.concatenate(around), DEGREE, first + np.mod(arc - first, once))
+        values = _splines(np.concatenate(around), first + np.mod(arc - first, once))
         values[:, :DEGREE] += values[:, n:]
         return values[:, :n]
+
+
+def _splines(knots: Vector, x: Vector) -> Array:
+    """All B-splines, (k, len(knots) - 4): only four are not zero at a place, which scipy uses."""
+    return np.asarray(BSpline.design_matrix(x, knots, DEGREE).toarray())
 
 
 def wished(station: Station, points: int) -> tuple[Vector, Vector]:

@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bladecad.arrays import Points, Vector, seal
-from bladecad.deviation.coverage import Map
 from bladecad.deviation.feet import Feet
 from bladecad.surface.blade import SideName
 from bladecad.tolerance import ZONES, ZoneName
 
 MANY = 20  # places told
+BLOCKS = (60, 120)  # over the span and along a side
 APART = 0.05  # of the size of the blade, between two of them
 
 
@@ -46,7 +46,7 @@ class Worst:
 
 
 def worst_places(
-    feet: Feet, zone: NDArray[np.int8], excess: Vector, map_: Map, stations: dict[str, float]
+    feet: Feet, zone: NDArray[np.int8], excess: Vector, stations: dict[str, float]
 ) -> tuple[Worst, ...]:
     """Return the points furthest out of their bands, worst first, none near a worse one.
 
@@ -58,26 +58,35 @@ def worst_places(
 
     Notes
     -----
-    Candidates are the worst point of every cell of the map; a place nearer than a twentieth of
-    the blade's size to a worse one is the same place.
+    Candidates are the worst points of blocks much smaller than a neighbourhood; a place nearer
+    than a twentieth of the blade's size to a worse one is the same place.
     """
-    top = np.full(map_.count.size, -np.inf)
-    cell = map_.cell(feet)
-    np.maximum.at(top, cell, excess)
-    found = np.flatnonzero((excess == top[cell]) & np.isfinite(excess))
+    block = _blocks(feet)
+    top = np.full(2 * BLOCKS[0] * BLOCKS[1], -np.inf)
+    np.maximum.at(top, block, excess)
+    found = np.flatnonzero((excess == top[block]) & np.isfinite(excess))
     found = found[np.argsort(-excess[found], kind="stable")]
     near = APART * float(np.linalg.norm(np.ptp(feet.foot[found], axis=0))) if len(found) else 0.0
     chosen = found[_apart(feet.foot[found], near)]
     return tuple(_worst(feet, int(k), int(zone[k]), float(excess[k]), stations) for k in chosen)
 
 
+def _blocks(feet: Feet) -> NDArray[np.int32]:
+    """Number of the block of u and t that each foot lies on, (k,)."""
+    a, b = BLOCKS
+    i = np.minimum((feet.u * a).astype(np.int32), a - 1)
+    j = np.minimum((feet.t * b).astype(np.int32), b - 1)
+    return np.asarray((i + np.where(feet.suction, 0, a)) * b + j, dtype=np.int32)
+
+
 def _apart(points: Points, near: float) -> list[int]:
     """Numbers of points, from the first on, none of them near an earlier one."""
-    free = np.ones(len(points), bool)
+    free = np.arange(len(points))
     chosen: list[int] = []
-    while free.any() and len(chosen) < MANY:
-        chosen.append(int(free.argmax()))
-        free &= np.linalg.norm(points - points[chosen[-1]], axis=1) > near
+    while len(free) and len(chosen) < MANY:
+        chosen.append(int(free[0]))
+        away = points[free] - points[free[0]]
+        free = free[np.einsum("kx,kx->k", away, away) > near**2]
     return chosen
 
 

@@ -116,8 +116,8 @@ def test_worst_places_are_the_bumps_and_not_thirty_points_of_one():
     at = [(0.3, 0.3, 0.09), (0.7, 0.6, -0.07), (0.5, 0.85, 0.05)]
     d = sum(h * np.exp(-((u - a) ** 2 + (t - b) ** 2) / 0.02**2) for a, b, h in at) * suction
     feet = feet_at(blade(), suction, u, t, d)
-    zone, out, map_, _ = results(feet, uniform(0.02))
-    worst = worst_places(feet, zone, out, map_, {"low": 0.2, "high": 0.8})
+    zone, out, _, _ = results(feet, uniform(0.02))
+    worst = worst_places(feet, zone, out, {"low": 0.2, "high": 0.8})
     for place, (a, b, h) in zip(worst, at, strict=False):
         assert place.deviation == pytest.approx(h, rel=0.05)
         assert place.excess == pytest.approx(abs(place.deviation) - 0.02)
