@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bladecad.arrays import Array, Mask, Points, Vector
+from bladecad.arrays import Mask, Points, Vector
 from bladecad.deviation.feet import FACES, Feet
 from bladecad.deviation.nominal import Nominal
 from bladecad.deviation.skin import Found, Skin, search
@@ -52,7 +52,7 @@ def project(nominal: Nominal, points: Points, *, caps: bool = False) -> Feet:
     return Feet(distance, found.foot, found.normal, face, suction, u, t, rim, found.unsettled)
 
 
-def _coordinates(skin: Skin, found: Found) -> tuple[Vector, Vector, Mask, Array]:
+def _coordinates(skin: Skin, found: Found) -> tuple[Vector, Vector, Mask, NDArray[np.int8]]:
     """Span, chordwise place, side and face of each foot; faces between the sides are halved."""
     face = skin.squares.face[found.item]
     a, b = found.place.T

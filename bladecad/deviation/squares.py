@@ -145,7 +145,8 @@ def _off(chart: Chart, c: Array, u: Vector, t: Vector) -> tuple[Array, Array]:
     V, W = np.vander(v, increasing=True), np.vander(w, increasing=True)
     along_u = _sampled(chart, u, _checks(P), t, w) - _at(c, AT_U, W)
     along_t = _sampled(chart, u, v, t, _checks(Q)) - _at(c, V, AT_T)
-    return tuple(np.linalg.norm(r, axis=4).max(axis=(2, 3)) for r in (along_u, along_t))  # type: ignore[return-value]
+    off_u, off_t = (np.linalg.norm(r, axis=4).max(axis=(2, 3)) for r in (along_u, along_t))
+    return off_u, off_t
 
 
 def _at(c: Array, V: Array, W: Array) -> Array:
