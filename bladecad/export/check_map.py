@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from bladecad.arrays import Array, Vector
 from bladecad.deviation.coverage import Map
 
-MOST: Final = 9000  # cells a side that are drawn
+MOST: Final = 8000  # cells a side that are drawn
 
 
 def coarser(chart: Map) -> Map:

@@ -134,7 +134,7 @@ def _key(figure: Figure, axes: Axes) -> None:
 def _extremes(whiskers: Whiskers) -> str:
     d = whiskers.deviation[np.isfinite(whiskers.deviation)]
     found = f"{signed(d.min())} to {signed(d.max())} mm" if len(d) else "not measured"
-    return f"u = {whiskers.u:.3g}   {found}"
+    return found if whiskers.name.startswith("u =") else f"u = {whiskers.u:.3g}   {found}"
 
 
 def draw_histogram(axes: Axes, histogram: Histogram, limit: float) -> None:

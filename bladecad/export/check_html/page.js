@@ -4,7 +4,7 @@
   const data = JSON.parse(document.getElementById("data").textContent, (_, value) =>
     value && value.bytes !== undefined && value.kind ? unpacked(value) : value);
   const { ink, limit } = data;
-  const CLASSES = 15, PALEST = 0.3;
+  const CLASSES = 15, PALEST = 0.3, RINGS = 10;
   const state = { zone: "", mode: "mean", section: -1, part: 0, magnification: 0 };
   const font = { family: getComputedStyle(document.body).fontFamily, size: 13, color: ink.line };
   const still = { displaylogo: false, responsive: true, showLink: false };
@@ -73,17 +73,17 @@
   }
   function worstTrace() {
     const { at: [x, y, z], deviation, zone } = data.worst;
-    const shown = deviation.map((_, k) => !state.zone || zone[k] === state.zone);
+    const shown = deviation.map((_, k) => k < RINGS && (!state.zone || zone[k] === state.zone));
     const some = (values) => [...values].filter((_, k) => shown[k]);
     return { type: "scatter3d", mode: "markers+text", x: some(x), y: some(y), z: some(z),
-      marker: { symbol: "circle-open", size: 8, color: "#000", line: { width: 2, color: "#000" } },
+      marker: { symbol: "circle-open", size: 6, color: "#000", line: { width: 2, color: "#000" } },
       text: some(deviation.map((_, k) => String(k + 1))), textposition: "top right", textfont: { ...font, size: 14 },
       customdata: some(deviation), hovertemplate: "worst place %{text}: %{customdata:+.4f} mm<extra></extra>" };
   }
   const opening = data.views["suction side"];
   const lamp = { x: 1e4 * opening.eye[0], y: 1e4 * opening.eye[1], z: 1e4 * opening.eye[2] };
   function camera(view) {
-    const [x, y, z] = view.eye.map((c) => 1.1 * c);
+    const [x, y, z] = view.eye.map((c) => 0.9 * c);
     const [a, b, c] = view.up;
     return { eye: { x, y, z }, up: { x: a, y: b, z: c }, center: { x: 0, y: 0, z: 0 }, projection: { type: "orthographic" } };
   }
@@ -209,7 +209,7 @@
     const annotations = k === null ? [] : [{ x: actual.x[k], y: actual.y[k], text: `<b>${signed(section.d[k])} mm</b>`, ax: 34, ay: -26,
       font: { ...font, color: section.out ? ink.bad : ink.line }, bgcolor: "rgba(255,255,255,0.85)", arrowwidth: 1, arrowcolor: ink.soft, standoff: 7 }];
     const layout = { margin: { l: 62, r: 18, t: 54, b: 46 }, font, hovermode: "closest", dragmode: "pan", annotations,
-      title: { text: `Section ${escaped(section.name)}, u = ${section.u.toFixed(3)}: deviations magnified × ${m}`, x: 0.012, xanchor: "left", y: 0.965, yanchor: "top", font: { ...font, size: 14 } },
+      title: { text: `Section ${escaped(section.name)}${section.name.startsWith("u =") ? "" : ", u = " + section.u.toFixed(3)}: deviations magnified × ${m}`, x: 0.012, xanchor: "left", y: 0.965, yanchor: "top", font: { ...font, size: 14 } },
       legend: { orientation: "h", x: 1, xanchor: "right", y: 1.01, yanchor: "bottom" },
       xaxis: axis("along the chord, mm", x), yaxis: { ...axis("across, mm", y), scaleanchor: "x" } };
     return Plotly.react(stage, traces, layout, tools("toImage", "zoom2d", "pan2d", "zoomIn2d", "zoomOut2d", "resetScale2d"));
@@ -304,5 +304,12 @@
     }
     requestAnimationFrame(() => requestAnimationFrame(() => { root.dataset.ready = String(Math.round(performance.now())); }));
   }
-  start();
+  async function unpackPlotly() {
+    const raw = Uint8Array.from(atob(at("plotly").textContent), (c) => c.charCodeAt(0));
+    const code = await new Response(new Blob([raw]).stream().pipeThrough(new DecompressionStream("gzip"))).text();
+    const script = document.createElement("script");
+    script.textContent = code;
+    document.head.append(script);
+  }
+  if (typeof DecompressionStream === "function") unpackPlotly().then(start);
 })();
