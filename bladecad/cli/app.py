@@ -8,6 +8,7 @@ import typer
 
 from bladecad import __version__
 from bladecad.cli.build import build
+from bladecad.cli.check import check
 from bladecad.cli.convert import convert
 from bladecad.cli.fit import fit
 from bladecad.cli.info import info
@@ -45,5 +46,5 @@ def common(
     """Measured compressor blades to certified CAD."""
 
 
-for command in (build, fit, info, convert, paper):
+for command in (build, check, fit, info, convert, paper):
     app.command(epilog=CODES)(command)

@@ -19,6 +19,7 @@ AxisChoice: TypeAlias = Literal["x", "y", "z"]
 LeadChoice: TypeAlias = Literal["low", "high"]
 HandChoice: TypeAlias = Literal["left", "right"]
 EdgesChoice: TypeAlias = Literal["file", "find"]
+FitChoice: TypeAlias = Literal["best", "none"]
 
 PAIRS, DEGREES = range(1, 13), range(3, 41)
 READ, FIT, OUT = "How the file is read", "How the blade is fitted", "What is written"
