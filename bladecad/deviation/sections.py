@@ -12,6 +12,7 @@ from bladecad.deviation.nominal import Nominal
 from bladecad.deviation.numbers import contours, formulas, numbers, twists
 from bladecad.deviation.outlines import Formulas
 from bladecad.deviation.parameters import Number
+from bladecad.deviation.section_fit import Limits, fits_of
 from bladecad.deviation.section_result import SectionResult
 from bladecad.deviation.station import Station, stations_at
 from bladecad.deviation.trend import Trend, trend
@@ -41,7 +42,8 @@ def section_results(
     found = [_at(station, feet, tolerances) for station in cut]
     staggers = [next(n for n in numbers_ if n.name == "stagger") for *_, numbers_ in found]
     turned = twists(staggers, tolerances)
-    return tuple(_result(*one, twist) for one, twist in zip(found, turned, strict=True))
+    limits = _limits(tolerances)
+    return tuple(_result(*one, twist, limits) for one, twist in zip(found, turned, strict=True))
 
 
 def _at(
@@ -59,9 +61,12 @@ def _result(
     fitted: Trend,
     found: list[Number],
     twist: Number,
+    limits: Limits | None,
 ) -> SectionResult:
     station = formula.station
     flat, flat_normal = _in_chord_frame(formula)
+    deviation = np.where(fitted.measured, fitted.deviation, np.nan)
+    in_plane = deviation * station.stretch * station.scale
     return SectionResult(
         station.name,
         station.u,
@@ -71,12 +76,19 @@ def _result(
         flat_normal,
         station.suction,
         station.t,
-        np.where(fitted.measured, fitted.deviation, np.nan),
+        deviation,
         np.where(fitted.measured, fitted.quantile * fitted.sigma, np.nan),
         tuple(sorted([*found, twist], key=_order)),
-        (),
+        fits_of(flat, flat_normal, in_plane, limits=limits),
         fitted.points,
     )
+
+
+def _limits(tolerances: Tolerances) -> Limits | None:
+    """What the constrained fit may move: shift and twist inside their own bands."""
+    bands = tolerances.parameters
+    found = Limits(bands.get("bow along"), bands.get("bow across"), bands.get("twist"))
+    return None if found == Limits() else found
 
 
 def _order(number: Number) -> tuple[int, float]:

@@ -15,7 +15,7 @@ from bladecad.deviation.project import project
 from bladecad.deviation.sections import section_results
 from bladecad.deviation.station import stations_at
 from bladecad.deviation.trend import trend
-from bladecad.tolerance import PARAMETERS, Band, uniform
+from bladecad.tolerance import PARAMETERS, Band, Tolerances, uniform
 from tests.deviation.scanned import AXIS, blade, feet_at, moved, scan_of, strewn
 
 TOLERANCES = uniform(0.05)
@@ -125,6 +125,22 @@ def test_bow_is_the_shift_of_the_section_along_and_across_its_chord():
     assert found.number("bow along").actual == pytest.approx(shift @ along, abs=2e-3)
     assert found.number("bow across").actual == pytest.approx(shift @ up, abs=2e-3)
     assert abs(found.number("stagger").deviation) < 2e-3
+
+
+def test_fits_of_a_section_move_it_as_the_blade_was_moved():
+    actual = moved(blade(), CHANGES["shifted"])
+    u = float(blade().span[2])
+    feet = project(nominal_of(blade()), scan_of(actual, *near(1500, u, 4)).points)
+    found = measured(blade(), feet, u)
+    bow = [found.number(f"bow {way}").actual for way in ("along", "across")]
+    kinds = {fit.kind: fit for fit in found.fits}
+    assert set(kinds) == {"least squares", "min-max", "leading edge", "trailing edge"}
+    np.testing.assert_allclose(kinds["least squares"].shift, bow, atol=2e-3)
+    assert kinds["least squares"].after[2] < 0.2 * kinds["least squares"].before[2]
+    limited = Tolerances(TOLERANCES.zones, {"bow across": Band(-0.005, 0.005)})
+    (held,) = section_results(nominal_of(blade()), feet, {"S": u}, limited, axis=AXIS)
+    fit = next(fit for fit in held.fits if fit.kind == "constrained")
+    assert abs(fit.shift[1]) <= 0.005 + 1e-9
 
 
 def test_twist_is_the_stagger_less_that_of_the_section_at_the_hub():
