@@ -5,18 +5,16 @@ import sys
 from pathlib import Path
 from time import perf_counter
 
-import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
 from bladecad.curves.sides import split_sides
 from bladecad.data.synthetic import synthetic_blade
 from bladecad.data.write import write_sections
-from bladecad.deviation.foot import project
 from bladecad.fit.blade import Order
 from bladecad.fit.order import fit_blade
 from bladecad.pipeline import Settings, build, fit, load, split, surface_of
-from bladecad.surface.loft import graded, loft
+from bladecad.surface.loft import loft
 from bladecad.surface.triangulate import triangulate
 
 ROTOR37 = Path(__file__).resolve().parents[2] / "fixtures" / "rotor37" / "sections.csv"
@@ -77,16 +75,6 @@ def test_triangulate_rotor_37_to_five_micrometres(benchmark, surface):
     mesh = slow(benchmark, lambda: triangulate(surface, chord_error=0.005))
     benchmark.extra_info["triangles"] = len(mesh.triangles)
     assert mesh.chord_error <= 0.005
-
-
-def test_project_ten_thousand_points(benchmark, surface):
-    mesh = triangulate(surface, chord_error=0.005)
-    rng = np.random.default_rng(0)
-    on = surface.at("suction", rng.random(10_000), graded(5001)[rng.integers(0, 5001, 10_000)])
-    points = on + rng.normal(0, 0.05, on.shape)
-    feet = slow(benchmark, project, surface, points, mesh.u, mesh.t)
-    benchmark.extra_info["points_a_second"] = round(10_000 / benchmark.stats.stats.median)
-    assert np.abs(feet.distance).max() < 0.5
 
 
 def seconds(function):
