@@ -29,6 +29,8 @@ def registration_numbers(registration: Registration) -> Report:
         "sigma_rotation_deg": np.degrees(sigma[3:]),
         "rms_mm": registration.rms,
         "largest_mm": registration.largest,
+        "points": registration.used,
+        "far": registration.far,
         "steps": registration.steps,
     }
 

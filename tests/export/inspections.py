@@ -77,7 +77,7 @@ def inspection(
 def registration() -> SimpleNamespace:
     return SimpleNamespace(
         T_nominal_scan=T, kind="best", locked=(), covariance=np.diag([1e-8] * 3 + [1e-10] * 3),
-        centre=np.zeros(3), rms=0.011, largest=0.13, steps=7, shift=T[:3, 3], angle=0.2838,
+        centre=np.zeros(3), rms=0.011, largest=0.13, used=3000, far=2, steps=7,
     )  # fmt: skip
 
 
