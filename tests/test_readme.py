@@ -63,3 +63,15 @@ def test_the_readme_opens_with_the_two_commands():
 def test_links_lead_somewhere(page: Path):
     for link in re.findall(r"\]\(([^)#]+)[^)]*\)", page.read_text(encoding="utf-8")):
         assert link.startswith("https://") or (page.parent / link).exists(), link
+
+
+def test_the_line_for_a_test_suite_runs(somewhere: Path, capsys):
+    from tests.test_check import scanned
+
+    surface = small().surface
+    save(surface, "rotor37.json")
+    np.savetxt("scan.xyz", scanned(surface, 0.01), fmt="%.6f")
+    (block,) = blocks("docs/check.md")
+    exec(block, {})
+    assert capsys.readouterr().out.startswith("True ")
+    assert (somewhere / "report" / "report.html").exists()
