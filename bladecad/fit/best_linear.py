@@ -11,12 +11,16 @@ from scipy.linalg import qr, solve_triangular
 from bladecad.arrays import Array, Vector
 from bladecad.fit.spectrum import Spectrum, decay
 
-RIDGE = 1e-11  # pivots below this share of the first: columns the data cannot tell apart
+RIDGE = 1e-8  # a coefficient counts as little as a misfit of this share of it
 SERIES = 1e-4  # |k| below which d/dk of a mode is taken from its series
 
 
 class BestLinear(NamedTuple):
-    """The best coefficients for one spectrum, and what the next step needs."""
+    """The best coefficients for one spectrum, and what the next step needs.
+
+    residual : (N + n, d) float; below the N of the samples the n of the ridge
+    Q        : (N + n, n) float, orthonormal columns
+    """
 
     spectrum: Spectrum
     C: Array
@@ -26,34 +30,43 @@ class BestLinear(NamedTuple):
 
 
 def best_linear(spectrum: Spectrum, t: Vector, Y: Array) -> BestLinear:
-    """Solve min_C |Phi C - Y|^2 by QR with pivoting; dependent columns get zero."""
+    """Solve min_C |Phi C - Y|^2 + RIDGE^2 |C|^2, by QR.
+
+    Without the second term the sum of squares jumps wherever rates come close to each other, or a
+    slow mode to a polynomial of the core, and the search would favour differences of huge modes.
+    """
     Phi = spectrum(t)
-    Q, R, order = qr(Phi, mode="economic", pivoting=True)
-    d = np.abs(np.diag(R))
-    rank = int(np.sum(d > RIDGE * d[0]))
-    Q = np.asarray(Q[:, :rank], dtype=np.float64)
-    QY = Q.T @ Y
-    C = np.zeros((Phi.shape[1], Y.shape[1]))
-    C[order[:rank]] = solve_triangular(R[:rank, :rank], QY)
-    residual = np.asarray(Y - Q @ QY)
-    return BestLinear(spectrum, C, residual, float(np.vdot(residual, residual)), np.array(Q))
+    below = np.zeros((Phi.shape[1], Y.shape[1]))
+    Q, R = qr(np.concatenate([Phi, RIDGE * np.eye(len(below))]), mode="economic")
+    QY = Q[: len(t)].T @ Y
+    residual = np.asarray(np.concatenate([Y, below]) - Q @ QY)
+    rss = float(np.vdot(residual, residual))
+    return BestLinear(spectrum, solve_triangular(R, QY), residual, rss, np.asarray(Q))
 
 
 def normal_equations(best: BestLinear, t: Vector) -> tuple[Array, Vector]:
     """J^T J and -J^T r for (log a, k) of every pair, with Kaufman's Jacobian.
 
-    J_theta = -(1 - Q Q^T) (dPhi/dtheta) C: each theta moves two columns of Phi only, so J^T J is
-    (D^T D) * (C C^T) summed over 2 x 2 blocks, D = (1 - Q Q^T) dPhi.
+    J_theta = -(1 - Q Q^T) (dPhi/dtheta) C: each theta moves two columns of Phi only, so with
+    (1 - Q Q^T) dPhi = U E, U of two orthonormal columns a theta, J^T J is (U^T U) * (E C)(E C)^T
+    summed over 2 x 2 blocks.
+
+    Notes
+    -----
+    A slow mode is nearly a polynomial of the core: C is large, and little is left of dPhi beside
+    Phi. Their product is formed first; products of each with itself would lose all digits, and
+    J^T J come out with negative diagonals.
     """
     spectrum, C, residual, _, Q = best
-    dPhi = np.concatenate([d for tau, k in _modes(spectrum, t) for d in _rates(tau, k)], axis=1)
-    first = spectrum.size - dPhi.shape[1] // 2
-    pairs = np.arange(first, spectrum.size).reshape(-1, 2)
-    C = C[np.repeat(pairs, 2, axis=0).ravel()]
-    g = np.einsum("jd,jd->j", dPhi.T @ residual, C).reshape(-1, 2).sum(axis=1)
-    D = dPhi - Q @ (Q.T @ dPhi)
-    m = len(g)
-    H = ((D.T @ D) * (C @ C.T)).reshape(m, 2, m, 2).sum(axis=(1, 3))
+    m = 2 * (len(spectrum.le) + len(spectrum.te))
+    dPhi = np.reshape([d for tau, k in _modes(spectrum, t) for d in _rates(tau, k)], (m, len(t), 2))
+    below = np.zeros((m, spectrum.size, 2))
+    U, E = np.linalg.qr(np.concatenate([dPhi, below], axis=1) - Q @ (Q[: len(t)].T @ dPhi))
+    pairs = C[spectrum.size - m :].reshape(m // 2, 2, C.shape[1])
+    EC = (E @ np.repeat(pairs, 2, axis=0)).reshape(2 * m, C.shape[1])
+    U = U.transpose(1, 0, 2).reshape(len(Q), 2 * m)
+    g = ((U.T @ residual) * EC).sum(axis=1).reshape(m, 2).sum(axis=1)
+    H = ((U.T @ U) * (EC @ EC.T)).reshape(m, 2, m, 2).sum(axis=(1, 3))
     return np.asarray(H), np.asarray(g)
 
 

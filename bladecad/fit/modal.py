@@ -13,13 +13,13 @@ from bladecad.fit.blade import BladeFit, Order, SpectrumKind
 from bladecad.fit.essence import Essence, essence
 from bladecad.fit.joint import JointFit, solve_joint
 from bladecad.fit.judge import SIDES, Bench, judge
-from bladecad.fit.projection import continued, first_guess, project
+from bladecad.fit.projection import project
 from bladecad.fit.samples import Samples, densify
+from bladecad.fit.search import find_rates
 from bladecad.fit.sidefit import SideFit
 from bladecad.fit.spectrum import Spectrum
 
 PER_GAP = 4  # samples a gap that are fitted
-SEGMENT_DEGREE = 5
 
 
 @final
@@ -68,7 +68,7 @@ def fit_order(
     spectrum : {"shared", "varying"}
         "varying" lets log a and k vary linearly with u.
     near : BladeFit, optional
-        A fit of another order whose rates the search starts from, instead of the usual ones.
+        A fit of a larger order to begin with what is left of its rates.
     """
     spectra = [_spectra(data, i, order, spectrum, near) for i in (0, 1)]
     return fit_spectra(data, order, spectra[0], spectra[1], tolerance)
@@ -110,15 +110,13 @@ def _spectra(
     data: Data, side: int, order: Order, kind: SpectrumKind, near: BladeFit | None
 ) -> tuple[Spectrum, ...]:
     t, together, apart = data.essences[side]
-    start = first_guess(order.le, order.te, order.degree)
-    if near is not None:
-        found = (near.suction, near.pressure)[side].bases[0]
-        assert isinstance(found, Spectrum)
-        start = continued(found, order.le, order.te, order.degree)
+    found = near and (near.suction, near.pressure)[side].bases[0]
+    assert found is None or isinstance(found, Spectrum)
+    shared = find_rates(order.le, order.te, order.degree, t, together, found)
     if kind == "shared":
-        return project(start, t, [together])
+        return (shared,)
     u = np.round(data.lines.span, 9)
-    return project(start, t, apart, np.column_stack([1.0 - u, u]))
+    return project(shared, t, apart, np.column_stack([1.0 - u, u]))
 
 
 def _one_section(samples: tuple[Samples, Samples], i: int) -> tuple[Samples, Samples]:

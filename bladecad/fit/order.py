@@ -96,9 +96,6 @@ def climb(data: Data, tolerance: float, spectrum: SpectrumKind, progress: Progre
         m, p = LADDER[rung]
         progress(f"order {m}, {m}, {p}")
         fit = fit_order(data, Order(m, m, p), tolerance, spectrum=spectrum)
-        if best is not None and fit.reason and _shortfall(fit) > BETTER * _shortfall(best):
-            again = fit_order(data, Order(m, m, p), tolerance, spectrum=spectrum, near=best)
-            fit = min(fit, again, key=_shortfall)
         log.info("%s: largest %.4g mm, rms %.4g mm", fit.order, fit.errors.largest, fit.errors.rms)
         stalled = 0 if best is None or _shortfall(fit) < BETTER * _shortfall(best) else stalled + 1
         best = fit if best is None else min(best, fit, key=_shortfall)

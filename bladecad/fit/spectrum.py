@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
 from typing import final
 
 import numpy as np
@@ -60,10 +60,7 @@ class Spectrum:
     @cached_property
     def A(self) -> Array:
         """System matrix, block diagonal; with knots, of one segment between two of them."""
-        p = self.degree + 1
-        legendre_rows = [np.pad(legendre.legder(row)[:p], (0, 1))[:p] for row in np.eye(p)]
-        blocks: list[Array] = [np.asarray(2.0 * np.array(legendre_rows), dtype=np.float64)]
-        blocks += [pair_matrix(a, k) for a, k in self.le]
+        blocks = [differentiation(self.degree), *(pair_matrix(a, k) for a, k in self.le)]
         blocks += [-pair_matrix(a, k) for a, k in self.te]
         return frozen(_block_diagonal(blocks))
 
@@ -75,11 +72,20 @@ class Spectrum:
         return np.concatenate([self._core(t, order), *modes], axis=1)
 
     def _core(self, t: Vector, order: int) -> Array:
-        p = self.degree + 1
         if len(self.knots):
             return basis(self.core, self.degree, t, order)
-        derivative = np.linalg.matrix_power(self.A[:p, :p], order)
-        return np.asarray(legendre.legvander(2.0 * t - 1.0, self.degree) @ derivative.T)
+        polynomials: Array = np.asarray(legendre.legvander(2.0 * t - 1.0, self.degree))
+        for _ in range(order):
+            polynomials = polynomials @ differentiation(self.degree).T
+        return polynomials
+
+
+@cache
+def differentiation(degree: int) -> Array:
+    """Matrix of d/dt on Legendre's polynomials of 2t - 1, nilpotent."""
+    p = degree + 1
+    rows = [np.pad(legendre.legder(row)[:p], (0, 1))[:p] for row in np.eye(p)]
+    return frozen(2.0 * np.array(rows))
 
 
 def pair_matrix(a: float, k: float) -> Array:
@@ -93,7 +99,9 @@ def pair(a: float, k: float, t: Vector, order: int = 0) -> Array:
     exp(-at) (cos wt', sin wt' / w) with t' = at and w = sqrt(k); for k < 0 two real rates.
     """
     w = np.stack(decay(a * t, k), axis=-1)
-    return np.asarray(w @ np.linalg.matrix_power(pair_matrix(a, k), order).T)
+    for _ in range(order):
+        w = w @ pair_matrix(a, k).T
+    return w
 
 
 def decay(tau: Vector, k: float) -> tuple[Vector, Vector]:

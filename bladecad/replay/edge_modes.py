@@ -6,8 +6,9 @@ import numpy as np
 
 from bladecad.arrays import Vector
 from bladecad.fit.blade import Order
+from bladecad.fit.essence import essence
 from bladecad.fit.joint import solve_joint
-from bladecad.fit.projection import first_guess, project
+from bladecad.fit.search import find_rates
 from bladecad.fit.sidefit import SideFit
 from bladecad.fit.spectrum import Spectrum
 from bladecad.replay.curves import Curves
@@ -41,9 +42,9 @@ def modal_fit(subject: Subject, order: Order) -> tuple[SideFit, SideFit]:
 
 def spectra_of(subject: Subject, order: Order) -> tuple[Spectrum, Spectrum]:
     """Rates that all sections of a side share."""
-    start = first_guess(order.le, order.te, order.degree)
-    found = [project(start, s.fitted.t, [s.fitted.about(s.fitted.centre)]) for s in subject.sides]
-    return found[0][0], found[1][0]
+    sides = [essence(side.fitted) for side in subject.sides]
+    suction, pressure = (find_rates(order.le, order.te, order.degree, *s[:2]) for s in sides)
+    return suction, pressure
 
 
 def spline(stretch: Stretch, n: int) -> Curves:

@@ -8,7 +8,7 @@ from bladecad.fit.blade import Order
 from bladecad.fit.judge import SPEED, Bench, Errors, SideErrors, judge
 from bladecad.fit.modal import fit_spectra, prepare
 from bladecad.fit.order import met
-from bladecad.fit.projection import first_guess
+from bladecad.fit.search import spread
 from bladecad.fit.sidefit import SideFit
 
 FREEDOM = Order(4, 4, 4)  # n = 21 coefficients, as many as points
@@ -34,7 +34,7 @@ def through_the_points(lines, side, spectrum):
 
 
 def wild(lines):
-    spectrum = first_guess(FREEDOM.le, FREEDOM.te, FREEDOM.degree)
+    spectrum = spread(FREEDOM.le, FREEDOM.te, FREEDOM.degree)
     return [through_the_points(lines, side, spectrum) for side in ("suction", "pressure")]
 
 
@@ -53,7 +53,7 @@ def test_the_trap_a_fit_perfect_at_the_points_and_wild_between_them_is_refused(l
 
 
 def test_the_same_freedom_fitted_to_the_densified_loop_is_not_wild(lines):
-    spectrum = first_guess(FREEDOM.le, FREEDOM.te, FREEDOM.degree)
+    spectrum = spread(FREEDOM.le, FREEDOM.te, FREEDOM.degree)
     fit = fit_spectra(prepare(lines), FREEDOM, (spectrum,), (spectrum,), 0.05)
     assert 0 < fit.errors.largest < 0.05
 
@@ -78,7 +78,7 @@ def test_the_refusal_says_why_in_numbers(found, words):
 
 
 def test_errors_are_the_largest_distance_on_nine_samples_a_gap_and_know_where(lines, bench):
-    spectrum = first_guess(1, 1, 7)
+    spectrum = spread(1, 1, 7)
     fit = fit_spectra(prepare(lines), Order(1, 1, 7), (spectrum,), (spectrum,), 0.01)
     found = fit.errors
     for name, side in (("suction", fit.suction), ("pressure", fit.pressure)):
@@ -96,7 +96,7 @@ def test_errors_are_the_largest_distance_on_nine_samples_a_gap_and_know_where(li
 
 
 def through(lines):
-    spectrum = first_guess(2, 2, 7)
+    spectrum = spread(2, 2, 7)
     fit = fit_spectra(prepare(lines), Order(2, 2, 7), (spectrum,), (spectrum,), 0.01)
     return fit.suction, fit.pressure
 
@@ -119,7 +119,7 @@ def test_a_blunt_edge_has_no_speed_to_keep():
 
 
 def test_a_fit_with_a_reason_is_an_error_that_carries_the_fit(lines):
-    spectrum = first_guess(1, 1, 3)
+    spectrum = spread(1, 1, 3)
     poor = fit_spectra(prepare(lines), Order(1, 1, 3), (spectrum,), (spectrum,), 1e-4)
     with pytest.raises(FitError, match=r"no order meets 0\.1 um: 1 LE pairs.*closest") as refused:
         met(poor)

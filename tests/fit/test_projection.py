@@ -4,7 +4,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bladecad.fit.best_linear import best_linear, normal_equations
-from bladecad.fit.projection import LOG_A, K, first_guess, project
+from bladecad.fit.projection import LOG_A, K, project
+from bladecad.fit.search import spread
 from bladecad.fit.spectrum import Spectrum
 
 T = 0.5 - 0.5 * np.cos(np.pi * np.linspace(0, 1, 400))  # closer at the edges
@@ -37,7 +38,7 @@ def sorted_modes(pairs):
 
 def test_a_known_spectrum_is_recovered_from_its_own_samples():
     Y = TRUTH(T) @ coefficients(TRUTH, 9)
-    (found,) = project(first_guess(2, 1, 5), T, [Y], steps=300)
+    (found,) = project(spread(2, 1, 5), T, [Y], steps=300)
     np.testing.assert_allclose(sorted_modes(found.le), TRUTH.le, rtol=1e-4)
     np.testing.assert_allclose(found.te, TRUTH.te, rtol=1e-4)
     assert best_linear(found, T, Y).rss < 1e-12 * np.vdot(Y, Y)
@@ -45,7 +46,7 @@ def test_a_known_spectrum_is_recovered_from_its_own_samples():
 
 def test_sections_one_by_one_and_side_by_side_share_the_same_spectrum():
     Y = TRUTH(T) @ coefficients(TRUTH, 9)
-    start = first_guess(2, 1, 5)
+    start = spread(2, 1, 5)
     (together,) = project(start, T, [Y])
     apart = project(start, T, np.split(Y, 3, axis=1))
     assert len(apart) == 3
@@ -59,10 +60,10 @@ def test_rates_that_vary_linearly_with_span_are_recovered():
     modes = np.column_stack([np.exp(hub + u * (tip - hub)), 0.8 + u])
     family = [Spectrum(3, m[None], np.empty((0, 2))) for m in modes]
     blocks = [s(T) @ coefficients(s, 3, seed=i) for i, s in enumerate(family)]
-    found = project(first_guess(1, 0, 3), T, blocks, np.column_stack([1 - u, u]), steps=300)
+    found = project(spread(1, 0, 3), T, blocks, np.column_stack([1 - u, u]), steps=300)
     for mine, theirs in zip(found, family, strict=True):
         np.testing.assert_allclose(mine.le, theirs.le, rtol=1e-5)
-    (shared,) = project(first_guess(1, 0, 3), T, [np.hstack(blocks)], steps=300)
+    (shared,) = project(spread(1, 0, 3), T, [np.hstack(blocks)], steps=300)
     assert best_linear(shared, T, np.hstack(blocks)).rss > 1e-4
 
 
@@ -105,27 +106,46 @@ def test_the_gradient_passes_smoothly_through_the_double_rate(k):
     np.testing.assert_allclose(-2 * g[1], slope, rtol=1e-6)
 
 
+def kaufman(spectrum, best, h=1e-6):
+    """Kaufman's Jacobian, written plainly; below the samples stand the rows of the ridge."""
+    theta, columns = theta_of(spectrum), []
+    for e in np.eye(len(theta)):
+        up, down = (with_theta(spectrum, theta + s * h * e)(T) for s in (1, -1))
+        d = np.pad((up - down) / (2 * h) @ best.C, ((0, spectrum.size), (0, 0)))
+        columns.append(-(d - best.Q @ (best.Q.T @ d)).ravel())
+    return np.stack(columns, axis=1)
+
+
 def test_the_normal_matrix_is_that_of_kaufmans_jacobian_written_plainly():
     Y = TRUTH(T) @ coefficients(TRUTH, 6) + np.cos(30 * T)[:, None]
-    best, theta, h = best_linear(TRUTH, T, Y), theta_of(TRUTH), 1e-6
-    columns = []
-    for e in np.eye(len(theta)):
-        up, down = (with_theta(TRUTH, theta + s * h * e)(T) for s in (1, -1))
-        d = (up - down) / (2 * h) @ best.C
-        columns.append(-(d - best.Q @ (best.Q.T @ d)).ravel())
-    J = np.stack(columns, axis=1)
+    best = best_linear(TRUTH, T, Y)
+    J = kaufman(TRUTH, best)
     H, g = normal_equations(best, T)
     np.testing.assert_allclose(H, J.T @ J, atol=1e-5 * np.abs(H).max())
     np.testing.assert_allclose(g, -J.T @ best.residual.ravel(), atol=1e-5 * np.abs(g).max())
 
 
-def test_dependent_columns_get_zero_and_the_residual_is_still_the_least():
+def test_the_normal_matrix_keeps_its_sign_where_modes_are_nearly_polynomials():
+    """Slow pairs beside a core of degree 11: large coefficients times small differences."""
+    slow = Spectrum(11, np.array([[8.5, -0.85], [300.0, 0.5]]), np.array([[12.0, -0.9]]))
+    Y = np.outer(np.exp(-9 * T) * np.sin(14 * T), [1.0, 0.5]) + np.cos(30 * T)[:, None]
+    best = best_linear(slow, T, Y)
+    assert np.abs(best.C).max() > 1e3
+    H, _ = normal_equations(best, T)
+    scaled = H / np.sqrt(np.outer(np.diag(H), np.diag(H)))
+    assert np.linalg.eigvalsh(scaled).min() > -1e-12
+    J = kaufman(slow, best)
+    np.testing.assert_allclose(np.diag(H), (J**2).sum(axis=0), rtol=1e-4)
+
+
+def test_dependent_columns_share_and_the_residual_is_still_the_least():
     twins = Spectrum(2, np.array([[30.0, 0.5], [30.0, 0.5]]), np.empty((0, 2)))
     one = Spectrum(2, np.array([[30.0, 0.5]]), np.empty((0, 2)))
     Y = np.sin(9 * T)[:, None]
-    best = best_linear(twins, T, Y)
-    assert np.count_nonzero(best.C) == one.size
-    assert best.rss == pytest.approx(best_linear(one, T, Y).rss, rel=1e-12)
+    best, alone = best_linear(twins, T, Y), best_linear(one, T, Y)
+    np.testing.assert_allclose(best.C[3:5] + best.C[5:], alone.C[3:], rtol=1e-6)
+    assert np.abs(best.C).max() < 1e3
+    assert best.rss == pytest.approx(alone.rss, rel=1e-9)
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -133,7 +153,7 @@ def test_rates_stay_within_their_bounds_and_the_reach_of_the_samples(seed):
     """Noise asks for rates and stiffness without end."""
     rng = np.random.default_rng(seed)
     t = np.linspace(0, 1, 120)
-    (found,) = project(first_guess(2, 2, 3), t, [rng.normal(size=(120, 6))])
+    (found,) = project(spread(2, 2, 3), t, [rng.normal(size=(120, 6))])
     modes = np.concatenate([found.le, found.te])
     assert (np.log(modes[:, 0]) >= LOG_A[0] - 1e-12).all()
     assert (modes[:, 0] <= 119 * (1 + 1e-9)).all()
@@ -143,13 +163,24 @@ def test_rates_stay_within_their_bounds_and_the_reach_of_the_samples(seed):
 
 def test_no_step_ever_makes_it_worse():
     Y = np.sqrt(T)[:, None] + TRUTH(T) @ coefficients(TRUTH, 3)
-    rss = [
-        best_linear(project(first_guess(1, 1, 5), T, [Y], steps=n)[0], T, Y).rss for n in range(8)
-    ]
+    rss = [best_linear(project(spread(1, 1, 5), T, [Y], steps=n)[0], T, Y).rss for n in range(8)]
     assert (np.diff(rss) <= 0).all()
     assert rss[-1] < 0.5 * rss[0]
 
 
+def test_what_is_held_at_a_bound_does_not_hold_up_the_others():
+    """The data ask for a stiffness beyond the bound: the other rate is found all the same."""
+    beyond = Spectrum(3, np.array([[20.0, 60.0]]), np.array([[80.0, 0.7]]))
+    Y = beyond(T) @ coefficients(beyond, 6)
+    (found,) = project(spread(1, 1, 3), T, [Y], steps=300)
+    assert found.le[0, 1] == K[1]
+    theta, least = theta_of(found), best_linear(found, T, Y).rss
+    for e in np.eye(4)[[0, 2, 3]]:
+        for change in np.linspace(-0.2, 0.2, 21):
+            near = with_theta(found, theta + change * e)
+            assert best_linear(near, T, Y).rss > 0.999 * least
+
+
 def test_without_modes_there_is_nothing_to_find():
-    start = first_guess(0, 0, 7)
+    start = spread(0, 0, 7)
     assert project(start, T, [np.sin(T)[:, None]])[0].size == 8
