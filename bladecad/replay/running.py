@@ -1,17 +1,12 @@
-"""A flow at many times at once: stops by doubling, a short series between them."""
+"""A flow at many times at once."""
 
 from __future__ import annotations
 
-from typing import Final
-
 import numpy as np
-from scipy.linalg import expm
 
-from bladecad.arrays import Array, Points, Vector
+from bladecad.arrays import Points, Vector
 from bladecad.fit.flow import Flow
-
-MOST_DOUBLINGS: Final = 15
-TERMS: Final = 20  # of the series, over steps with |A| h below 1/2
+from bladecad.fit.orbit import Orbit
 
 
 def run(flow: Flow, t: Vector) -> Points:
@@ -20,23 +15,4 @@ def run(flow: Flow, t: Vector) -> Points:
     As `evaluate`, with one exponential instead of one for every t.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        states = _stops(flow)
-        near = np.rint(t * (len(states) - 1)).astype(int)
-        h = (t - near / (len(states) - 1))[:, None]
-        term = total = states[near]
-        for j in range(1, TERMS):
-            term = (term @ flow.A.T) * (h / j)
-            total = total + term
-        return np.asarray(total @ flow.C.T)
-
-
-def _stops(flow: Flow) -> Array:
-    """States at equal steps from 0 to 1: exp(A 2h) = exp(A h)^2 takes one half to the other."""
-    norm = max(float(np.linalg.norm(flow.A, 2)), 1.0)
-    doublings = int(np.clip(np.ceil(np.log2(norm)), 0, MOST_DOUBLINGS))
-    E = step = expm(flow.A / 2**doublings)
-    states = flow.z0[None]
-    for _ in range(doublings):
-        states = np.concatenate([states, states @ E.T])
-        E = E @ E
-    return np.concatenate([states, states[-1:] @ step.T])
+        return np.asarray(Orbit(flow.A, flow.z0)(t) @ flow.C.T)
