@@ -15,7 +15,7 @@ Blade = Annotated[
     Path | None,
     typer.Argument(
         metavar="[INPUT]",
-        help="File, folder, or one file of a numbered family [default: Rotor 37, laid out as the "
+        help="File, folder, or one file of a numbered family \\[default: Rotor 37, laid out as the "
         "paper's, and the ladder on every blade at hand].",
         show_default=False,
     ),
