@@ -197,6 +197,20 @@ def test_what_is_no_nominal_is_refused_by_name(name, content, message, tmp_path)
         load_nominal(tmp_path / name)
 
 
+def test_a_nominal_with_a_platform_is_refused(tmp_path):
+    mesh, surface = small().mesh, small().surface
+    blade = trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False)
+    hub, tip = (surface("suction", np.full(1, u), np.full(1, 0.5))[0, 0] for u in (0.0, 1.0))
+    span = int(np.abs(tip - hub).argmax())
+    platform = trimesh.creation.box(np.where(np.arange(3) == span, 12.0, 1.1 * blade.extents))
+    platform.apply_translation(blade.centroid)
+    platform.apply_translation(np.eye(3)[span] * (hub - blade.centroid))
+    trimesh.util.concatenate([blade, platform.subdivide()]).export(tmp_path / "part.stl")
+    for axis in (None, tuple(np.eye(3)[span])):
+        with pytest.raises(DataError, match="root"):
+            load_nominal(tmp_path / "part.stl", NominalSettings(span_axis=axis))
+
+
 def test_tolerances_that_make_no_sense_are_refused_before_anything_is_read(tmp_path):
     with pytest.raises(ToleranceError, match="tolerance of -1 mm"):
         check("gone", "gone", -1.0)

@@ -18,6 +18,7 @@ FEWEST: Final = 12  # places that a quadratic is laid through
 RIDGE: Final = 0.01  # of the scatter of a full column
 CLOSE: Final = 0.05  # gap over length, up to which a loop is closed
 WELD: Final = 1e-6  # of the size: vertices closer than this are one
+ROUGHEST: Final = 0.05  # of the span; Rotor 37, on cones, 0.002
 FLAT: Final = 0.01  # of the span: hub and tip that are quadratic to so much speak for an axis
 TRIED: Final = np.linspace(0.03, 0.97, 9)
 
@@ -84,7 +85,7 @@ def span_field(vertices: Points, triangles: Triangles, axis: Vector | None = Non
     """
     rims = _rims(triangles, len(vertices))
     if axis is not None:
-        return _field(vertices, triangles, rims, np.asarray(axis) / np.linalg.norm(axis))
+        return _smooth(_field(vertices, triangles, rims, np.asarray(axis) / np.linalg.norm(axis)))
     directions = _directions(vertices, triangles)
     found = [_field(vertices, triangles, rims, a) for a in directions]
     evenness = [_evenness(vertices, triangles, f) / (1.0 + f.misfit / FLAT) for f in found]
@@ -94,7 +95,18 @@ def span_field(vertices: Points, triangles: Triangles, axis: Vector | None = Non
             "no direction cuts the mesh into single loops from hub to tip; is it one blade without "
             "root and platform? give --span-axis"
         )
-    return found[best]
+    return _smooth(found[best])
+
+
+def _smooth(field: SpanField) -> SpanField:
+    """Refuse a hub or tip that no quadratic follows: then the mesh is more than an airfoil."""
+    if field.misfit > ROUGHEST:
+        raise DataError(
+            f"hub or tip is no smooth face: it is off by {field.misfit:.0%} of the span, "
+            f"{ROUGHEST:.0%} is allowed; a root, a platform or a shroud? cut the nominal down to "
+            "its airfoil, or give --span-axis"
+        )
+    return field
 
 
 def loops_at(

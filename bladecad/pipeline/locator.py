@@ -34,6 +34,7 @@ RIM: Final = 2e-3  # of the span, kept from hub and tip where they are not exact
 POINTS: Final = 240  # of a section cut from triangles
 TIGHT, LOOSE = 0.01, 0.05  # mm; the locator is fitted to the first, and refused beyond the second
 NOISE: Final = 0.4  # of the chord error: rms of points on the sides of triangles
+STEP: Final = 1.25  # from one outline to the next; 1.006 on Rotor 37
 TURN: Final = 0.6  # share of the points that are spread by turning, the others by length
 
 
@@ -98,9 +99,24 @@ def locator_of_mesh(
                 "root and platform, and whole? give --span-axis"
             )
         sections.append(Section(f"{level:.3f}", _smoothed(loops[0], NOISE * chord_error)))
+    _refuse_steps(sections, levels, path)
     told = ", ".join(f"{a:+.3f}" for a in field.axis)
     said = () if axis is not None else (f"span axis found: {told}; --span-axis says otherwise",)
     return _fitted(sections, path, settings, field.axis, said)
+
+
+def _refuse_steps(sections: list[Section], levels: Vector, path: Path) -> None:
+    """Refuse what is more than an airfoil: its outline changes in a step."""
+    closed = [np.vstack([section.points, section.points[:1]]) for section in sections]
+    around = np.array([np.linalg.norm(np.diff(p, axis=0), axis=1).sum() for p in closed])
+    step = np.abs(np.diff(np.log(around)))
+    k = int(step.argmax())
+    if step[k] > np.log(STEP):
+        raise DataError(
+            f"{path.name}: the outline changes from {around[k]:.4g} to {around[k + 1]:.4g} mm "
+            f"between {levels[k]:.0%} and {levels[k + 1]:.0%} of the span; a root, a platform or a "
+            "shroud? cut the nominal down to its airfoil, or give --span-axis"
+        )
 
 
 def _along_lines(
