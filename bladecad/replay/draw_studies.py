@@ -15,7 +15,7 @@ from bladecad.replay.results import Results
 from bladecad.replay.subject import REGIONS
 
 COLOURS: Final = {"linear": ink.ORANGE, "spline": ink.GREEN}
-LIMITS: Final = (1e-3, 1e4)  # mm
+LIMITS: Final = (3e-4, 1e4)  # mm
 
 
 def figure_homotopy(results: Results, folder: Path) -> None:
