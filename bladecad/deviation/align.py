@@ -6,11 +6,10 @@ from dataclasses import dataclass
 from typing import Final, final
 
 import numpy as np
-from scipy.linalg import eigh
 
 from bladecad.arrays import Array, Mask, Points, Vector, seal
 from bladecad.deviation.nominal import Nominal
-from bladecad.deviation.pose import motions, moved, stepped
+from bladecad.deviation.pose import coordinates, moved, pose, stepped, unit_motions
 from bladecad.deviation.project import project
 from bladecad.errors import DataError
 
@@ -19,6 +18,9 @@ GATE = 0.05  # of the chord: points further off are no part of the blade
 ROUNDING = 1e-9  # of the chord: the least scale, of points without any noise
 LEAST = 12  # points to solve for six unknowns
 INNER = 30  # weightings between two projections
+SETTLED = 1e-4  # of the scale: a change at which the weights have settled
+STIFF = 1e-4  # of the stiffest direction: softer ones are not followed
+SIZINGS = 6  # steps in which the size settles
 STILL = 1e-8  # of the chord: a step at which the pose stands still
 NOISE = 0.01  # of its own standard deviation: so does one at such a step
 
@@ -42,11 +44,6 @@ class Frame:
     def __post_init__(self) -> None:
         seal(self, centre=(3,))
 
-    @property
-    def worth(self) -> Vector:
-        """Millimetres that a unit of shift or rotation is worth, (6,)."""
-        return np.repeat([1.0, self.reach], 3)
-
 
 @final
 @dataclass(frozen=True, eq=False)
@@ -55,6 +52,7 @@ class Met:
 
     d        : (j,) float, mm
     J        : (j, 6) float, by shift (mm) and rotation (rad) about the centre of the frame
+    growth   : (j,) float, mm, by growing about it to twice the size
     suction  : share of them on the suction side
     span     : (2,) float, least and largest u of all but a hundredth at each end
     rim, far : points beyond the span, and others further off than `GATE`: they are left out
@@ -62,6 +60,7 @@ class Met:
 
     d: Vector
     J: Array
+    growth: Vector
     suction: float
     span: Vector
     rim: int
@@ -142,17 +141,33 @@ def align(
     """
     for done in range(1, rounds + 1):  # noqa: B007
         met = meet(nominal, points, T, frame)
-        B = motions(T, frame.centre, frame.free)
-        A = met.J @ B
-        q, s = _solved(A, met.d, ROUNDING * frame.chord)
-        T, step, r = stepped(T, frame.free, q), B @ q, met.d + A @ q
-        C = B @ _covariance(A, r, s) @ B.T
-        noise = np.sqrt(frame.worth**2 @ np.diag(C))
-        still = max(STILL * frame.chord, NOISE * float(noise), enough)
-        if np.linalg.norm(frame.worth * step) <= still:
+        U, R = unit_motions(T, frame.centre, frame.reach, frame.free)
+        A = met.J @ U
+        y, s = _solved(A, met.d, ROUNDING * frame.chord)
+        T, r = stepped(T, frame.free, coordinates(R, y)), met.d + A @ y
+        C = _covariance(A, r, s)
+        still = max(STILL * frame.chord, NOISE * float(np.sqrt(np.trace(C))), enough)
+        if np.linalg.norm(y) <= still:
             break
-    stiffness, slack = _stiffness(met.J, r, s, B, frame)
-    return Aligned(T, C, stiffness, slack, r, s, met, done)
+    stiffness, slack = _stiffness(A, r, s)
+    return Aligned(T, U @ C @ U.T, stiffness, U @ slack, r, s, met, done)
+
+
+def sized(nominal: Nominal, points: Points, found: Aligned, frame: Frame) -> tuple[float, Aligned]:
+    """How many times as large the points lie best on the nominal, and how they lie then.
+
+    Gauss-Newton on size and pose together, from the pose found for the size they have.
+    """
+    size, T = 1.0, found.T
+    for _ in range(SIZINGS):
+        met = meet(nominal, points * size, T, frame)
+        U, R = unit_motions(T, frame.centre, frame.reach, frame.free)
+        y, _ = _solved(np.column_stack([met.J @ U, met.growth]), met.d, ROUNDING * frame.chord)
+        grown = float(np.clip(1.0 + y[-1], 0.9, 1.1))
+        T = stepped(T, frame.free, coordinates(R, y[:-1]))
+        T = pose(T[:3, :3], frame.centre + grown * (T[:3, 3] - frame.centre))
+        size = size * grown
+    return size, align(nominal, points * size, T, frame, rounds=SIZINGS)
 
 
 def standing(nominal: Nominal, points: Points, frame: Frame) -> Aligned:
@@ -176,30 +191,28 @@ def meet(nominal: Nominal, points: Points, T: Array, frame: Frame) -> Met:
             "the scan is of another blade, in another unit, or stands too far away"
         )
     d, n = feet.distance, feet.normal
-    J = np.column_stack([n, np.cross(feet.foot - frame.centre, n)])
+    arm = feet.foot - frame.centre
+    J, growth = np.column_stack([n, np.cross(arm, n)]), np.einsum("jx,jx->j", arm, n)
     span = np.quantile(feet.u, [0.01, 0.99])
-    return Met(d, J, float(np.mean(feet.suction)), span, *lost)
+    return Met(d, J, growth, float(np.mean(feet.suction)), span, *lost)
 
 
 def _solved(A: Array, d: Vector, least: float) -> tuple[Vector, float]:
-    """The step q that minimises sum rho((d + A q) / s), and the scale s."""
-    size = _size(A)
-    A = A / size
-    q = np.zeros(A.shape[1])
+    """The step y that minimises sum rho((d + A y) / s), and the scale s.
+
+    Directions that hardly change a distance are not followed.
+    """
+    y: Vector = np.zeros(A.shape[1])
     for _ in range(INNER):
-        r = d + A @ q
+        r = d + A @ y
         s = _scale(r, least)
         w = 1.0 / (1.0 + (r / (CAUCHY * s)) ** 2)
-        change = np.linalg.lstsq((A * w[:, None]).T @ A, -(A * w[:, None]).T @ r, rcond=1e-14)[0]
-        q = q + change
-        if np.abs(change).max() <= 1e-4 * s:
+        WA = A * w[:, None]
+        change = np.linalg.lstsq(WA.T @ A, -WA.T @ r, rcond=STIFF**2)[0]
+        y = y + change
+        if np.abs(change).max() <= SETTLED * s:
             break
-    return np.asarray(q / size), s
-
-
-def _size(A: Array) -> Vector:
-    """Lengths of the columns."""
-    return np.asarray(np.sqrt(np.maximum(np.einsum("ki,ki->i", A, A), 1e-300)))
+    return y, s
 
 
 def _scale(r: Vector, least: float) -> float:
@@ -208,19 +221,15 @@ def _scale(r: Vector, least: float) -> float:
 
 
 def _covariance(A: Array, r: Vector, s: float) -> Array:
-    """Covariance of the free coordinates, (f, f)."""
+    """Covariance of the step, (f, f)."""
     x = (r / (CAUCHY * s)) ** 2
     psi, slope = r / (1.0 + x), (1.0 - x) / (1.0 + x) ** 2
-    size = _size(A)
-    A = A / size
-    P = np.linalg.pinv((A * slope[:, None]).T @ A, hermitian=True)
-    C = P @ ((A * (psi**2)[:, None]).T @ A) @ P
-    return np.asarray(C / np.outer(size, size))
+    P = np.linalg.pinv((A * slope[:, None]).T @ A, rcond=STIFF**2, hermitian=True)
+    return np.asarray(P @ ((A * (psi**2)[:, None]).T @ A) @ P)
 
 
-def _stiffness(J: Array, r: Vector, s: float, B: Array, frame: Frame) -> tuple[Vector, Vector]:
-    """Root mean square change of distance by motions of 1 mm, and the motion of the least."""
+def _stiffness(A: Array, r: Vector, s: float) -> tuple[Vector, Vector]:
+    """Root mean square change of distance by motions of 1 mm, rising; the motion of the least."""
     w = 1.0 / (1.0 + (r / (CAUCHY * s)) ** 2)
-    G = B.T @ ((J * w[:, None]).T @ J / w.sum()) @ B
-    values, vectors = eigh(G, B.T @ (frame.worth[:, None] ** 2 * B))
-    return np.sqrt(np.maximum(values, 0.0)), B @ vectors[:, 0]
+    values, vectors = np.linalg.eigh((A * w[:, None]).T @ A / w.sum())
+    return np.sqrt(np.maximum(values, 0.0)), vectors[:, 0]

@@ -52,6 +52,22 @@ def motions(T: Array, centre: Vector, free: Mask) -> Array:
     return np.asarray(B[..., free])
 
 
+def unit_motions(T: Array, centre: Vector, reach: float, free: Mask) -> tuple[Array, Array]:
+    """The free motions, each of 1 mm and square to the others, and coordinates that bring them.
+
+    A radian is worth `reach` mm. The columns of U, (..., 6, f), are shift (mm) at the centre and
+    rotation (rad); R, (..., f, f), is for `coordinates`.
+    """
+    worth = np.repeat([1.0, reach], 3)[:, None]
+    Q, R = np.linalg.qr(worth * motions(T, centre, free))
+    return np.asarray(Q / worth), np.asarray(R)
+
+
+def coordinates(R: Array, y: Array) -> Array:
+    """The step of the free coordinates, (..., f), that is the motion U y."""
+    return np.asarray(np.linalg.solve(R, y[..., None])[..., 0], dtype=np.float64)
+
+
 def stepped(T: Array, free: Mask, step: Array) -> Array:
     """T with its free coordinates changed by `step`, (..., f)."""
     full = np.zeros((*T.shape[:-2], 6))

@@ -18,8 +18,10 @@ from bladecad.errors import DataError
 LEAST = 50  # points: six unknowns, a robust scale, and some to spare
 FLAT = 1e-3  # of the largest extent: thinner clouds are lines or planes
 SIZES: Final = (0.2, 5.0)  # times the nominal: a part of the blade, or a blade on its disc
-FITS = 0.5  # badness below which a pose says that this is the blade
+LIKELY: Final = (0.4, 3.0)  # times the nominal, once the unit is right
+FITS = 0.2  # badness below which a pose says that this is the blade
 OTHER_BLADE = 0.004  # of the chord, robust: a blade 2 % out at its worst place has half of it
+GROWTH = 0.02  # of the size: what shrinking and heat explain
 BETTER = 0.5  # times the residual: a mirror image that lies so much closer is the blade
 ELSEWHERE = 0.5  # of the points
 LOOSE = 1e-3  # mm of distance, rms, by a motion of 1 mm
@@ -61,21 +63,21 @@ def refuse_size(stand_in: StandIn, points: Points) -> None:
     ------
     DataError
         If the scan is five times smaller or larger than the nominal; it names the unit in which
-        the scan fits.
+        the scan lies on it, or is nearest in size.
     """
     ratio = reach(thinned(points)) / stand_in.reach
     if SIZES[0] <= ratio <= SIZES[1]:
         return
     told = f"the scan is {ratio:.3g} times as large as the nominal"
-    fitting = [(abs(np.log(ratio * k)), k, name) for k, name in _units()]
-    fitting = [f for f in fitting if SIZES[0] <= ratio * f[1] <= SIZES[1]]
-    for _, k, name in sorted(fitting):
-        start = find_start(stand_in, points * k, np.ones(6, bool))
-        if start.badness < FITS:
+    fitting = sorted((abs(np.log(ratio * k)), k, name) for k, name in _units())
+    for _, k, name in fitting:
+        alike = LIKELY[0] <= ratio * k <= LIKELY[1]
+        if alike and find_start(stand_in, points * k, np.ones(6, bool)).badness < FITS:
             raise DataError(f"{told}, and lies on it when {name}")
+    _, k, name = fitting[0]
     raise DataError(
-        f"{told}, {SIZES[0]:g} to {SIZES[1]:g} times is allowed, and no usual unit explains it; "
-        "is it a scan of this blade? Else give its unit with --units"
+        f"{told}, {SIZES[0]:g} to {SIZES[1]:g} times is allowed; {ratio * k:.3g} times when "
+        f"{name}; is it a scan of this blade?"
     )
 
 
@@ -106,7 +108,7 @@ def refuse_other(
             f"(robust), the scan itself to {mine:.3g} mm; change the sign of one axis of the scan, "
             "or take the nominal of the other hand"
         )
-    if found is None or found.scale > bound:
+    if found is None or found.scale > bound or found.met.far > len(found.residual):
         far = f"{found.scale:.3g}" if found else f"more than {GATE * frame.chord:.3g}"
         free = f" with {', '.join(locked)} locked" if locked else ""
         raise DataError(
@@ -117,22 +119,38 @@ def refuse_other(
     return found
 
 
-def refuse_elsewhere(found: Aligned, frame: Frame) -> None:
-    """Refuse scans taken as they stand that do not stand on the nominal.
+def refuse_grown(found: Aligned, grown: Aligned, size: float) -> None:
+    """Refuse scans of a blade of the same shape in another size.
+
+    Raises
+    ------
+    DataError
+        If the scan lies far better when it is made larger or smaller by some hundredths.
+    """
+    if grown.scale < BETTER * found.scale and abs(size - 1.0) > GROWTH:
+        raise DataError(
+            f"the scan is of a blade of another size: made {size:.3f} times as large it lies on "
+            f"the nominal to {grown.scale:.2g} mm (robust), as it is to {found.scale:.2g} mm; "
+            f"{100 * GROWTH:g} % of size is allowed, check which nominal and scan belong together"
+        )
+
+
+def refuse_elsewhere(found: Aligned | None, frame: Frame) -> Aligned:
+    """Refuse scans taken as they stand that do not stand on the nominal; `found` comes back.
 
     Raises
     ------
     DataError
         If half of the points are too far from it.
     """
-    met = found.met
-    share = met.far / (met.far + met.rim + len(found.residual))
-    if share > ELSEWHERE:
+    share = found.met.far / (found.met.far + found.met.rim + len(found.residual)) if found else 1.0
+    if found is None or share > ELSEWHERE:
         raise DataError(
             f"{100 * share:.0f} % of the points stand further than {GATE * frame.chord:.3g} mm "
             f"from the nominal, {100 * ELSEWHERE:.0f} % is allowed of a scan that is not moved; "
             "its frame is another one, register it with --fit best"
         )
+    return found
 
 
 def refuse_loose(found: Aligned, frame: Frame) -> None:

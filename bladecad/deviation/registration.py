@@ -12,17 +12,18 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from bladecad.arrays import Array, Points, Vector, seal
-from bladecad.deviation.align import Aligned, Frame, align, standing
+from bladecad.deviation.align import Aligned, Frame, align, sized, standing
 from bladecad.deviation.nominal import Nominal
 from bladecad.deviation.pose import FREEDOMS, Freedom, free_of, moved
 from bladecad.deviation.refuse import (
     refuse_elsewhere,
     refuse_few_or_flat,
+    refuse_grown,
     refuse_loose,
     refuse_other,
     refuse_size,
 )
-from bladecad.deviation.remarks import remarks
+from bladecad.deviation.remarks import remark_on_size, remarks
 from bladecad.deviation.stand_in import StandIn, stand_in
 from bladecad.deviation.starts import find_start
 from bladecad.errors import DataError, ToleranceError
@@ -33,6 +34,7 @@ FEW, SOME, MOST = 3_000, 50_000, 1_000_000  # points of the three stages
 ROUNDS: Final = (25, 6, 2)  # projections at most, in each
 ENOUGH = 1e-4  # of the chord: after a step like this the feet of all points need not be renewed
 SUSPECT = 5e-4  # of the chord: a residual at which the mirror image is looked at too
+UNSURE = 1e-4  # of the chord: a residual at which another size is tried
 MIRROR: Final = np.array([1.0, 1.0, -1.0])
 
 log = logging.getLogger(__name__)
@@ -163,7 +165,7 @@ def _best(
     nominal: Nominal, points: Points, cloud: StandIn, frame: Frame, locked: tuple[Freedom, ...]
 ) -> Registration:
     few = _drawn(points, FEW)
-    found = _first(nominal, few, cloud, frame, locked)
+    found, note = _first(nominal, few, cloud, frame, locked)
     counts = [found.rounds * len(few)]
     for count, rounds in ((SOME, ROUNDS[1]), (MOST, ROUNDS[2])):
         if len(few) < min(len(points), count):
@@ -172,19 +174,23 @@ def _best(
             found = align(nominal, few, found.T, frame, rounds=rounds, enough=enough)
             counts.append(found.rounds * len(few))
     log.info("registered %d points, %s projected, rms %.3g mm", len(points), counts, found.rms)
-    return _told(found, "best", locked, frame, sum(counts))
+    return _told(found, "best", locked, frame, sum(counts), note)
 
 
 def _first(
     nominal: Nominal, few: Points, cloud: StandIn, frame: Frame, locked: tuple[Freedom, ...]
-) -> Aligned:
+) -> tuple[Aligned, tuple[str, ...]]:
     """A few points laid down; refused if they are of no such blade, or slide on it."""
     found, image = _laid(nominal, few, cloud, frame), None
     if found is None or found.scale > SUSPECT * frame.chord:
         image = _laid(nominal, few * MIRROR, cloud, replace(frame, free=free_of(())))
     found = refuse_other(found, image, frame, locked)
     refuse_loose(found, frame)
-    return found
+    if found.scale <= UNSURE * frame.chord:
+        return found, ()
+    size, grown = sized(nominal, few, found, frame)
+    refuse_grown(found, grown, size)
+    return found, remark_on_size(found, grown, size)
 
 
 def _laid(nominal: Nominal, few: Points, cloud: StandIn, frame: Frame) -> Aligned | None:
@@ -200,13 +206,20 @@ def _laid(nominal: Nominal, few: Points, cloud: StandIn, frame: Frame) -> Aligne
 def _as_it_stands(nominal: Nominal, points: Points, frame: Frame) -> Registration:
     """No motion; refused if most points stand nowhere near the blade."""
     some = _drawn(points, SOME)
-    found = standing(nominal, some, frame)
-    refuse_elsewhere(found, frame)
+    found = None
+    with suppress(DataError):
+        found = standing(nominal, some, frame)
+    found = refuse_elsewhere(found, frame)
     return _told(found, "none", (), frame, len(some))
 
 
 def _told(
-    found: Aligned, kind: Kind, locked: tuple[Freedom, ...], frame: Frame, projected: int
+    found: Aligned,
+    kind: Kind,
+    locked: tuple[Freedom, ...],
+    frame: Frame,
+    projected: int,
+    notes: tuple[str, ...] = (),
 ) -> Registration:
     return Registration(
         T_nominal_scan=found.T,
@@ -222,5 +235,5 @@ def _told(
         far=found.met.far,
         steps=found.rounds,
         projected=projected,
-        notes=remarks(found, frame),
+        notes=(*notes, *remarks(found, frame)),
     )

@@ -11,12 +11,24 @@ from bladecad.deviation.pose import FREEDOMS, Freedom
 ONE_SIDED = 0.05  # of the points at least lie on either side of a blade that is scanned whole
 SHORT = 0.05  # of the span may be missing at either end
 MUCH = 0.05  # of the points are many to leave out
+NO_GROWTH = 5e-4
+BETTER = 0.5  # times the residual
 WEAK = 0.01  # of the chord: a slide that the form of a scan can hide
 
 
 def remarks(found: Aligned, frame: Frame) -> tuple[str, ...]:
     """Sides and ends that are missing, points left out, motions that are held only weakly."""
     return (*_sides(found), *_ends(found), *_left_out(found, frame), *_weak(found, frame))
+
+
+def remark_on_size(found: Aligned, grown: Aligned, size: float) -> tuple[str, ...]:
+    """Whether the scan lies far better in another size: it has shrunk, or its scale is off."""
+    if grown.scale >= BETTER * found.scale or abs(size - 1.0) < NO_GROWTH:
+        return ()
+    return (
+        f"the scan lies on the nominal to {grown.scale:.2g} mm (robust) when it is made "
+        f"{size:.4f} times as large, to {found.scale:.2g} mm as it is: check scale and temperature",
+    )
 
 
 def motion(slack: Vector, frame: Frame) -> str:
@@ -29,7 +41,7 @@ def motion(slack: Vector, frame: Frame) -> str:
 
 def to_lock(slack: Vector, frame: Frame) -> Freedom:
     """The free coordinate that stops the motion most."""
-    size = np.abs(slack * frame.worth) * frame.free
+    size = np.abs(slack * np.repeat([1.0, frame.reach], 3)) * frame.free
     return FREEDOMS[int(np.argmax(size))]
 
 

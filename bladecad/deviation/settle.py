@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from bladecad.arrays import Array, Mask, Points, Vector
-from bladecad.deviation.pose import motions, moved, stepped
+from bladecad.deviation.pose import coordinates, moved, stepped, unit_motions
 from bladecad.deviation.stand_in import StandIn
 
 BEYOND = 3.0  # spacings between foot and nearest point, along the surface: past its border
-DAMPING = 0.02  # by (width / chord)^2: while it is far, slides that meet no resistance stay short
+DAMPING = 1.0  # by (width / chord)^2: while it is far, slides that meet no resistance stay short
 SIGHT = 6.0  # widths: points further from the blade do not count, and are not looked at
 SPREAD = 0.01  # of the chord: what still counts as lying on the blade
 
@@ -40,12 +40,13 @@ def settle(
     for c in widths:
         Y, r, n, beyond = _met(stand_in, moved(T, points), SIGHT * c)
         M = _metric(r, n, beyond, float(c))
-        B = motions(T, stand_in.centre, free)
-        A = _rows(Y - stand_in.centre) @ B[:, None]  # (m, k, 3, f)
+        U, R = unit_motions(T, stand_in.centre, stand_in.reach, free)
+        A = _rows(Y - stand_in.centre) @ U[:, None]  # (m, k, 3, f)
         MA = M @ A
         H = np.einsum("mkxi,mkxj->mij", A, MA, optimize=True)
         g = np.einsum("mkxi,mkx->mi", MA, r, optimize=True)
-        T = stepped(T, free, _solved(H, g, DAMPING * (c / stand_in.chord) ** 2))
+        y = _solved(H, g, DAMPING * (c / stand_in.chord) ** 2)
+        T = stepped(T, free, coordinates(R, y))
     return T, badness(stand_in, points, T, float(widths[-1]))
 
 
@@ -92,7 +93,7 @@ def _rows(arm: Array) -> Array:
 
 
 def _solved(H: Array, g: Array, damping: float) -> Array:
-    """-H^-1 g with the columns put to one scale and a little damping."""
-    scale = np.sqrt(np.maximum(np.einsum("mii->mi", H), 1e-300))
-    N = H / (scale[:, :, None] * scale[:, None, :]) + damping * np.eye(H.shape[1])
-    return np.asarray(-np.linalg.solve(N, (g / scale)[..., None])[..., 0] / scale)
+    """-(H + damping)^-1 g, the damping by the mean of the diagonal."""
+    mean = np.einsum("mii->m", H)[:, None, None] / H.shape[1] + 1e-300
+    damped = H / mean + damping * np.eye(H.shape[1])
+    return np.asarray(-np.linalg.solve(damped, g[..., None] / mean)[..., 0])
