@@ -74,7 +74,10 @@ def nearest(
             node = stack[top]
             if node < leaves:
                 a, b = 2 * node + 1, 2 * node + 2
-                da, db = beyond(low[a], high[a], x), beyond(low[b], high[b], x)
+                da, db = (
+                    beyond(low, high, a, x[0], x[1], x[2]),
+                    beyond(low, high, b, x[0], x[1], x[2]),
+                )
                 if da < db:
                     a, b, da, db = b, a, db, da
                 if da <= best:
