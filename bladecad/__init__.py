@@ -19,18 +19,30 @@ if TYPE_CHECKING:
     from bladecad.curves.sides import BladeLines as BladeLines
     from bladecad.curves.sides import split_sides as split_sides
     from bladecad.data.read import read_sections as read_sections
+    from bladecad.data.read_scan import read_scan as read_scan
+    from bladecad.data.scan import Scan as Scan
     from bladecad.data.sections import Section as Section
     from bladecad.data.sections import Sections as Sections
     from bladecad.data.synthetic import synthetic_blade as synthetic_blade
+    from bladecad.data.tolerance_file import read_tolerances as read_tolerances
     from bladecad.data.write import write_sections as write_sections
+    from bladecad.deviation.feet import Feet as Feet
+    from bladecad.deviation.inspection import Inspection as Inspection
+    from bladecad.deviation.inspection import inspect as inspect
     from bladecad.deviation.measure import Deviation as Deviation
     from bladecad.deviation.measure import measure as measure
+    from bladecad.deviation.nominal import Nominal as Nominal
+    from bladecad.deviation.nominal import nominal_of as nominal_of
+    from bladecad.deviation.project import project as project
+    from bladecad.deviation.registration import Registration as Registration
+    from bladecad.deviation.registration import register as register
     from bladecad.errors import BladecadError as BladecadError
     from bladecad.errors import DataError as DataError
     from bladecad.errors import ExportError as ExportError
     from bladecad.errors import FitError as FitError
     from bladecad.errors import GeometryError as GeometryError
     from bladecad.errors import ToleranceError as ToleranceError
+    from bladecad.export.check_files import export_check as export_check
     from bladecad.export.files import export_blade as export_blade
     from bladecad.export.info import describe as describe
     from bladecad.export.model_file import load as load
@@ -41,51 +53,79 @@ if TYPE_CHECKING:
     from bladecad.fit.blade import Order as Order
     from bladecad.fit.order import fit_blade as fit_blade
     from bladecad.pipeline import Build as Build
+    from bladecad.pipeline import Check as Check
+    from bladecad.pipeline import CheckSettings as CheckSettings
+    from bladecad.pipeline import NominalSettings as NominalSettings
     from bladecad.pipeline import Settings as Settings
     from bladecad.pipeline import build as build
+    from bladecad.pipeline import check as check
+    from bladecad.pipeline import load_nominal as load_nominal
     from bladecad.surface.blade import BladeSurface as BladeSurface
     from bladecad.surface.loft import Loft as Loft
     from bladecad.surface.loft import loft as loft
     from bladecad.surface.triangulate import BladeMesh as BladeMesh
     from bladecad.surface.triangulate import triangulate as triangulate
     from bladecad.surface.volume import volume as volume
+    from bladecad.tolerance import Band as Band
+    from bladecad.tolerance import Tolerances as Tolerances
+    from bladecad.tolerance import uniform as uniform
 
 __version__ = "0.1.0"
 
 __all__ = [
+    "Band",
     "BladeFit",
     "BladeLines",
     "BladeMesh",
     "BladeSurface",
     "BladecadError",
     "Build",
+    "Check",
+    "CheckSettings",
     "DataError",
     "Deviation",
     "ExportError",
+    "Feet",
     "FitError",
     "GeometryError",
+    "Inspection",
     "Loft",
+    "Nominal",
+    "NominalSettings",
     "Order",
+    "Registration",
+    "Scan",
     "Section",
     "Sections",
     "Settings",
     "Solid",
     "ToleranceError",
+    "Tolerances",
     "__version__",
     "build",
     "build_solid",
+    "check",
     "describe",
     "export_blade",
+    "export_check",
     "fit_blade",
+    "inspect",
     "load",
+    "load_nominal",
     "loft",
     "measure",
+    "nominal_of",
+    "project",
+    "read_scan",
     "read_sections",
     "read_step",
+    "read_tolerances",
+    "register",
     "save",
     "split_sides",
     "synthetic_blade",
     "triangulate",
+    "uniform",
     "volume",
     "write_sections",
     "write_step",
@@ -97,10 +137,18 @@ _HOMES = {
     "brep.solid": ("Solid", "build_solid"),
     "curves.sides": ("BladeLines", "split_sides"),
     "data.read": ("read_sections",),
+    "data.read_scan": ("read_scan",),
+    "data.scan": ("Scan",),
     "data.sections": ("Section", "Sections"),
     "data.synthetic": ("synthetic_blade",),
+    "data.tolerance_file": ("read_tolerances",),
     "data.write": ("write_sections",),
+    "deviation.feet": ("Feet",),
+    "deviation.inspection": ("Inspection", "inspect"),
     "deviation.measure": ("Deviation", "measure"),
+    "deviation.nominal": ("Nominal", "nominal_of"),
+    "deviation.project": ("project",),
+    "deviation.registration": ("Registration", "register"),
     "errors": (
         "BladecadError",
         "DataError",
@@ -109,6 +157,7 @@ _HOMES = {
         "GeometryError",
         "ToleranceError",
     ),
+    "export.check_files": ("export_check",),
     "export.files": ("export_blade",),
     "export.info": ("describe",),
     "export.model_file": ("load", "save"),
@@ -116,11 +165,21 @@ _HOMES = {
     "export.stl": ("write_stl",),
     "fit.blade": ("BladeFit", "Order"),
     "fit.order": ("fit_blade",),
-    "pipeline": ("Build", "Settings", "build"),
+    "pipeline": (
+        "Build",
+        "Check",
+        "CheckSettings",
+        "NominalSettings",
+        "Settings",
+        "build",
+        "check",
+        "load_nominal",
+    ),
     "surface.blade": ("BladeSurface",),
     "surface.loft": ("Loft", "loft"),
     "surface.triangulate": ("BladeMesh", "triangulate"),
     "surface.volume": ("volume",),
+    "tolerance": ("Band", "Tolerances", "uniform"),
 }
 
 
