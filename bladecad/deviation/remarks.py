@@ -10,6 +10,7 @@ from bladecad.deviation.pose import FREEDOMS, Freedom
 
 ONE_SIDED = 0.05  # of the points at least lie on either side of a blade that is scanned whole
 SHORT = 0.05  # of the span may be missing at either end
+POOR = 1e-3  # of the chord, robust: bent or twisted by a hundredth, or another blade much alike
 MUCH = 0.05  # of the points are many to leave out
 NO_GROWTH = 5e-4
 BETTER = 0.5  # times the residual
@@ -17,8 +18,14 @@ WEAK = 0.01  # of the chord: a slide that the form of a scan can hide
 
 
 def remarks(found: Aligned, frame: Frame) -> tuple[str, ...]:
-    """Sides and ends that are missing, points left out, motions that are held only weakly."""
-    return (*_sides(found), *_ends(found), *_left_out(found, frame), *_weak(found, frame))
+    """A poor fit, sides and ends that are missing, points left out, weakly held motions."""
+    return (
+        *_poor(found, frame),
+        *_sides(found),
+        *_ends(found),
+        *_left_out(found, frame),
+        *_weak(found, frame),
+    )
 
 
 def remark_on_size(found: Aligned, grown: Aligned, size: float) -> tuple[str, ...]:
@@ -48,6 +55,15 @@ def to_lock(slack: Vector, frame: Frame) -> Freedom:
 def _direction(a: Vector) -> str:
     a = a / np.linalg.norm(a)
     return "(" + ", ".join(f"{x:.2f}" for x in a + 0.0) + ")"
+
+
+def _poor(found: Aligned, frame: Frame) -> tuple[str, ...]:
+    if found.scale <= POOR * frame.chord:
+        return ()
+    return (
+        f"the scan stands {found.scale:.2g} mm (robust) from the nominal, {100 * POOR:g} % of the "
+        f"chord is {POOR * frame.chord:.2g} mm: check that it is this blade and not its neighbour",
+    )
 
 
 def _sides(found: Aligned) -> tuple[str, ...]:
