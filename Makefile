@@ -31,7 +31,7 @@ demo: $(STAMP)
 	@echo; echo 'The blade is in $(DEMO):'; ls -1 $(DEMO) | sed 's/^/  /'
 
 test: $(STAMP)
-	$(BIN)/pytest
+	$(BIN)/pytest -n auto --dist loadfile
 
 check: $(STAMP)
 	$(BIN)/ruff format --check
