@@ -60,6 +60,8 @@ def numbers(formula: Formulas, trend: Trend, tolerances: Tolerances) -> list[Num
         variance = float(slope[:q] @ trend.covariance @ slope[:q])
         half = np.hypot(trend.quantile * np.sqrt(variance), bulge * np.linalg.norm(slope[q:]))
         reason = _missing(name, formula, trend)
+        if not (np.isfinite(f).all() and np.isfinite(half)):
+            reason, half = reason or "the measured outline is too far from the nominal for it", 0.0
         actual = None if reason else float(f[1])
         found.append(_number(name, float(f[0]), actual, float(half), tolerances, reason))
     return found

@@ -285,16 +285,22 @@ def _crossing(x: Array, Y: Array, at: Array) -> Array:
     """Where lines Y first reach x = at, by the straight line between two samples, (m, 2)."""
     k = np.maximum((x >= at).argmax(axis=1), 1)
     rows = np.arange(len(x))
-    w = (at - x[rows, k - 1]) / (x[rows, k] - x[rows, k - 1])
+    step = x[rows, k] - x[rows, k - 1]
+    w = (at - x[rows, k - 1]) / np.where(step == 0.0, np.inf, step)
     return np.asarray(Y[rows, k - 1] + w[:, None] * (Y[rows, k] - Y[rows, k - 1]))
 
 
 def _circle(X: Array, w: Array) -> Array:
-    """Radius of the least-squares circle through points (m, i, 2): x^2 + y^2 = 2 a . x + c."""
+    """Radius of the least-squares circle through points (m, i, 2): x^2 + y^2 = 2 a . x + c.
+
+    NaN where fewer than three points have a weight: the outline is no edge there.
+    """
+    told = (w > 0.0).sum(axis=1) >= 3
+    w = np.where(told[:, None], w, 1.0)
     X = X - (np.einsum("mix,mi->mx", X, w) / w.sum(axis=1)[:, None])[:, None]
     A = np.concatenate([2.0 * X, np.ones((*X.shape[:2], 1))], axis=2)
     weighted = A * w[..., None]
     normal = np.swapaxes(weighted, 1, 2) @ A
     right = np.einsum("mia,mi->ma", weighted, _dot(X, X))
-    a, b, c = np.linalg.solve(normal, right[..., None])[..., 0].T
-    return np.asarray(np.sqrt(c + a**2 + b**2))
+    a, b, c = (np.linalg.pinv(normal, hermitian=True) @ right[..., None])[..., 0].T
+    return np.asarray(np.where(told, np.sqrt(np.maximum(c + a**2 + b**2, 0.0)), np.nan))
