@@ -52,6 +52,8 @@ def nearest(
     a square within d + 2r of x. Those are collected, and each point tries them, the nearest box
     first, as long as their boxes are nearer than the best foot so far.
 
+    All in one body: a call that takes the arrays along costs as much as the step it makes.
+
     Fills `which`, `place` (v, w), `distance` (signed), `feet`, `normal`; returns how many points
     did not settle.
     """

@@ -8,8 +8,9 @@ import numpy as np
 from scipy.stats import t as student
 
 from bladecad.arrays import Array, Mask
+from bladecad.deviation.loops import Indices
 from bladecad.deviation.moved import movement
-from bladecad.deviation.outlines import EVERY, Formulas, Indices
+from bladecad.deviation.outlines import EVERY, Formulas
 from bladecad.deviation.parameters import Number
 from bladecad.deviation.station import SAMPLES, Station
 from bladecad.deviation.trend import Trend

@@ -12,24 +12,28 @@ from functools import cached_property
 from typing import Final, final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bladecad.arrays import Array, Vector
+from bladecad.deviation.loops import (
+    Indices,
+    at,
+    centroids,
+    circle,
+    crossing,
+    dot,
+    middle_of_top,
+    peak,
+    slope,
+    top,
+)
 from bladecad.deviation.station import SAMPLES, Station
-
-Indices = NDArray[np.intp]
 
 END: Final = 0.05  # of the side: the ends of the chord lie nearer to the edges
 TURNS: Final = 5  # of chord direction and ends, each far better than the one before
 NOSE: Final = np.radians(60.0)  # either way of where the edge points
 INNER: Final = 0.06  # of the side from the edges: circles that touch both sides
-TOP: Final = 0.97  # of the largest circle: its place is the middle of those larger than that
 EVERY: Final = 4  # samples between two circles
 WINDOW: Final = 12  # samples either way in which a circle touches the other side
-
-
-def _dot(a: Array, b: Array) -> Array:
-    return np.asarray(np.einsum("...x,...x->...", a, b))
 
 
 @final
@@ -71,20 +75,20 @@ class Formulas:
         """The furthest place of an edge in direction e; the middle of a cut-off one."""
         if len(ring) <= 2:
             return np.asarray(X[:, ring].mean(axis=1))
-        return _at(X[:, ring], *_top(_dot(X[:, ring], e[:, None])))
+        return at(X[:, ring], *top(dot(X[:, ring], e[:, None])))
 
     def _circles(self, X: Array, le: Array, e: Array) -> dict[str, Array]:
         """The largest circle between the sides, and the furthest centre of any from the chord."""
         r, centre = self.inscribed(X)
         away = centre - le[:, None]
-        x, y = _dot(away, e[:, None]), _dot(away, self.up(e)[:, None])
-        k, w = _top(r)
-        thick = 2.0 * _at(r[:, :, None], k, w)[:, 0] * self.scale_at(self.touching[k])
+        x, y = dot(away, e[:, None]), dot(away, self.up(e)[:, None])
+        k, w = top(r)
+        thick = 2.0 * at(r[:, :, None], k, w)[:, 0] * self.scale_at(self.touching[k])
         bend = float(np.sign(y[0, np.abs(y[0]).argmax()]))
         return {
             "maximum thickness": thick,
-            "maximum thickness place": self.chord_scale * _middle_of_top(r, x),
-            "camber": self.chord_scale * bend * _at((bend * y)[:, :, None], *_top(bend * y))[:, 0],
+            "maximum thickness place": self.chord_scale * middle_of_top(r, x),
+            "camber": self.chord_scale * bend * at((bend * y)[:, :, None], *top(bend * y))[:, 0],
         }
 
     def inscribed(self, X: Array) -> tuple[Array, Array]:
@@ -95,12 +99,12 @@ class Formulas:
         """
         i = self.touching
         p = X[:, i]
-        T = _slope(X, i)
+        T = slope(X, i)
         n = -self.hand * np.stack([T[..., 1], -T[..., 0]], axis=2)
         q = X[:, self.partners]
         away = q - p[:, :, None]
-        into = np.maximum(_dot(away, n[:, :, None]), 1e-9)
-        r = -_peak(-_dot(away, away) / (2.0 * into))
+        into = np.maximum(dot(away, n[:, :, None]), 1e-9)
+        r = -peak(-dot(away, away) / (2.0 * into))
         return r, p + r[..., None] * n
 
     def radii(self, X: Array) -> dict[str, Array]:
@@ -112,18 +116,18 @@ class Formulas:
         ):
             if kind == "round":
                 facing = np.maximum(self._facing(X, ring) - np.cos(NOSE), 0.0)
-                radius = _circle(X[:, ring[1:-1]], facing * self.station.lengths[ring[1:-1]])
+                radius = circle(X[:, ring[1:-1]], facing * self.station.lengths[ring[1:-1]])
                 found[f"{name} edge radius"] = radius * self.scale_at(ring[len(ring) // 2])
         return found
 
     def _facing(self, X: Array, ring: Indices) -> Array:
         """Cosine between the normals of an edge and where it points, halfway between its sides."""
-        T = _slope(X[:, ring], np.arange(1, len(ring) - 1))
+        T = slope(X[:, ring], np.arange(1, len(ring) - 1))
         n = self.hand * np.stack([T[..., 1], -T[..., 0]], axis=2)
         e = n[:, 0] - n[:, -1]
         e = self.hand * np.stack([-e[:, 1], e[:, 0]], axis=1)
         e = e / np.linalg.norm(e, axis=1)[:, None]
-        return _dot(n, e[:, None])
+        return dot(n, e[:, None])
 
     def _edges(self, X: Array, le: Array, te: Array, e: Array) -> dict[str, Array]:
         found = {}
@@ -144,14 +148,14 @@ class Formulas:
         S, P = (X[:, self.station.side(s)[order]] - end[:, None] for s in ("suction", "pressure"))
         for _ in range(TURNS):
             up = self.up(e)
-            a, b = (_crossing(_dot(Y, e[:, None]), Y, offset / scale) for Y in (S, P))
+            a, b = (crossing(dot(Y, e[:, None]), Y, offset / scale) for Y in (S, P))
             middle = 0.5 * (a + b)
             e = middle / np.linalg.norm(middle, axis=1)[:, None]
-        return np.asarray(scale * np.abs(_dot(a - b, up)))
+        return np.asarray(scale * np.abs(dot(a - b, up)))
 
     def _centroid(self, X: Array) -> dict[str, Array]:
         """Shift of the centroid of the area from that of the nominal."""
-        shift = _centroids(X) - _centroids(self.station.flat[None])
+        shift = centroids(X) - centroids(self.station.flat[None])
         scale = float(self.station.scale.mean())
         along, up = self.nominal_e, self.up(self.nominal_e[None])[0]
         return {"bow along": scale * shift @ along, "bow across": scale * shift @ up}
@@ -228,79 +232,7 @@ class Formulas:
         X, side = self.station.flat, self.station.side("pressure")
         p, n = X[self.touching], -self.station.flat_normal[self.touching]
         away = X[side] - p[:, None]
-        into = _dot(away, n[:, None])
-        r = np.where(into > 1e-9, _dot(away, away) / (2.0 * np.maximum(into, 1e-9)), np.inf)
+        into = dot(away, n[:, None])
+        r = np.where(into > 1e-9, dot(away, away) / (2.0 * np.maximum(into, 1e-9)), np.inf)
         centre = np.clip(r.argmin(axis=1), WINDOW, len(side) - 1 - WINDOW)
         return np.asarray(side[centre[:, None] + np.arange(-WINDOW, WINDOW + 1)])
-
-
-def _top(y: Array) -> tuple[Indices, Vector]:
-    """Where the last axis is largest, by the parabola through three samples: (m,) and offset."""
-    k = np.clip(y.argmax(axis=-1), 1, y.shape[-1] - 2)
-    a, b, c = (np.take_along_axis(y, k[..., None] + i, -1)[..., 0] for i in (-1, 0, 1))
-    bend = a - 2.0 * b + c
-    w = np.divide(0.5 * (a - c), bend, out=np.zeros_like(b), where=bend < 0)
-    return k, np.clip(w, -1.0, 1.0)
-
-
-def _middle_of_top(r: Array, x: Array) -> Array:
-    """Middle of the stretch of x where r is near its largest value, (m,)."""
-    w = np.maximum(r - TOP * r.max(axis=1)[:, None], 0.0) * np.gradient(x, axis=1)
-    return np.asarray((w * x).sum(axis=1) / w.sum(axis=1))
-
-
-def _peak(y: Array) -> Array:
-    """Largest value along the last axis, by the parabola through three samples."""
-    k, w = _top(y)
-    a, b, c = (np.take_along_axis(y, k[..., None] + i, -1)[..., 0] for i in (-1, 0, 1))
-    return np.asarray(b + 0.5 * w * (c - a) + 0.5 * w**2 * (a - 2.0 * b + c))
-
-
-def _at(X: Array, k: Indices, w: Vector) -> Array:
-    """Rows of X (m, i, x) at sample k + w, by the parabola through three, (m, x)."""
-    rows = np.arange(len(X))
-    a, b, c = (X[rows, k + i] for i in (-1, 0, 1))
-    w = w[:, None]
-    return np.asarray(b + 0.5 * w * (c - a) + 0.5 * w**2 * (a - 2.0 * b + c))
-
-
-def _slope(X: Array, i: Indices) -> Array:
-    """Unit tangents at some points, by the parabola through each and its neighbours."""
-    after, before = X[:, i + 1] - X[:, i], X[:, i] - X[:, i - 1]
-    h1, h0 = (np.linalg.norm(step, axis=2)[..., None] for step in (after, before))
-    T = after * h0 / h1 + before * h1 / h0
-    return np.asarray(T / np.linalg.norm(T, axis=2)[..., None])
-
-
-def _centroids(X: Array) -> Array:
-    """Centroids of the areas in loops (m, n, 2), by Green's formula, (m, 2)."""
-    x, y = X[..., 0], X[..., 1]
-    x1, y1 = np.roll(x, -1, axis=1), np.roll(y, -1, axis=1)
-    cross = x * y1 - x1 * y
-    place = np.stack([((x + x1) * cross).sum(1), ((y + y1) * cross).sum(1)], axis=1)
-    return np.asarray(place / (3.0 * cross.sum(axis=1))[:, None])
-
-
-def _crossing(x: Array, Y: Array, at: Array) -> Array:
-    """Where lines Y first reach x = at, by the straight line between two samples, (m, 2)."""
-    k = np.maximum((x >= at).argmax(axis=1), 1)
-    rows = np.arange(len(x))
-    step = x[rows, k] - x[rows, k - 1]
-    w = (at - x[rows, k - 1]) / np.where(step == 0.0, np.inf, step)
-    return np.asarray(Y[rows, k - 1] + w[:, None] * (Y[rows, k] - Y[rows, k - 1]))
-
-
-def _circle(X: Array, w: Array) -> Array:
-    """Radius of the least-squares circle through points (m, i, 2): x^2 + y^2 = 2 a . x + c.
-
-    NaN where fewer than three points have a weight: the outline is no edge there.
-    """
-    told = (w > 0.0).sum(axis=1) >= 3
-    w = np.where(told[:, None], w, 1.0)
-    X = X - (np.einsum("mix,mi->mx", X, w) / w.sum(axis=1)[:, None])[:, None]
-    A = np.concatenate([2.0 * X, np.ones((*X.shape[:2], 1))], axis=2)
-    weighted = A * w[..., None]
-    normal = np.swapaxes(weighted, 1, 2) @ A
-    right = np.einsum("mia,mi->ma", weighted, _dot(X, X))
-    a, b, c = (np.linalg.pinv(normal, hermitian=True) @ right[..., None])[..., 0].T
-    return np.asarray(np.where(told, np.sqrt(np.maximum(c + a**2 + b**2, 0.0)), np.nan))
