@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import qr, solve_triangular
+from scipy.linalg import qr
+from scipy.linalg.lapack import dtrtrs
 
 from bladecad.arrays import Array, Vector
 from bladecad.fit.spectrum import Spectrum, decay
@@ -41,7 +41,7 @@ def best_linear(spectrum: Spectrum, t: Vector, Y: Array) -> BestLinear:
     QY = Q[: len(t)].T @ Y
     residual = np.asarray(np.concatenate([Y, below]) - Q @ QY)
     rss = float(np.vdot(residual, residual))
-    return BestLinear(spectrum, solve_triangular(R, QY), residual, rss, np.asarray(Q))
+    return BestLinear(spectrum, np.asarray(dtrtrs(R, QY)[0]), residual, rss, np.asarray(Q))
 
 
 def normal_equations(best: BestLinear, t: Vector) -> tuple[Array, Vector]:
@@ -59,7 +59,7 @@ def normal_equations(best: BestLinear, t: Vector) -> tuple[Array, Vector]:
     """
     spectrum, C, residual, _, Q = best
     m = 2 * (len(spectrum.le) + len(spectrum.te))
-    dPhi = np.reshape([d for tau, k in _modes(spectrum, t) for d in _rates(tau, k)], (m, len(t), 2))
+    dPhi = _rates(spectrum, t).reshape(m, len(t), 2)
     below = np.zeros((m, spectrum.size, 2))
     U, E = np.linalg.qr(np.concatenate([dPhi, below], axis=1) - Q @ (Q[: len(t)].T @ dPhi))
     pairs = C[spectrum.size - m :].reshape(m // 2, 2, C.shape[1])
@@ -70,18 +70,15 @@ def normal_equations(best: BestLinear, t: Vector) -> tuple[Array, Vector]:
     return np.asarray(H), np.asarray(g)
 
 
-def _modes(spectrum: Spectrum, t: Vector) -> Iterator[tuple[Vector, float]]:
-    for a, k in spectrum.le:
-        yield a * t, k
-    for a, k in spectrum.te:
-        yield a * (1.0 - t), k
-
-
-def _rates(tau: Vector, k: float) -> tuple[Array, Array]:
-    """Derivatives of a pair of modes by log a and by k, each (N, 2)."""
-    y1, y2 = decay(tau, k)
-    by_log_a = np.column_stack([tau * (-y1 - k * y2), tau * (y1 - y2)])
+def _rates(spectrum: Spectrum, t: Vector) -> Array:
+    """Derivatives of every pair of modes by log a and by k, (pairs, 2, N, 2)."""
+    le, te = spectrum.le, spectrum.te
+    tau = np.concatenate([le[:, :1] * t, te[:, :1] * (1.0 - t)])
+    k = np.concatenate([le[:, 1:], te[:, 1:]])
+    y1, y2 = decay(tau, k[:, 0])
+    large = np.abs(k) >= SERIES
     series = -(tau**3) * np.exp(-tau) * (1.0 / 6.0 - k * tau**2 / 60.0)
-    exact = (tau * y1 - y2) / (2.0 * k if abs(k) >= SERIES else 1.0)
-    by_k = np.column_stack([-0.5 * tau * y2, exact if abs(k) >= SERIES else series])
-    return by_log_a, by_k
+    dy2 = np.where(large, (tau * y1 - y2) / np.where(large, 2.0 * k, 1.0), series)
+    by_log_a = np.stack([tau * (-y1 - k * y2), tau * (y1 - y2)], axis=-1)
+    by_k = np.stack([-0.5 * tau * y2, dy2], axis=-1)
+    return np.stack([by_log_a, by_k], axis=1)

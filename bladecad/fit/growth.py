@@ -10,7 +10,7 @@ import numpy as np
 from bladecad.arrays import Array, Vector
 from bladecad.fit.best_linear import BestLinear, best_linear
 from bladecad.fit.projection import LOG_A, project, reach
-from bladecad.fit.spectrum import Spectrum, pair
+from bladecad.fit.spectrum import Spectrum, pairs
 
 RATES: Final = 15  # tried at each edge, evenly in log a
 STIFFNESS: Final = (-0.8, -0.3, 0.5, 2.0, 6.0, 15.0)  # tried with each of them
@@ -72,8 +72,8 @@ def _trials(t: Vector) -> tuple[Trials, Trials]:
     return Trials(le, _unit_modes(le, t)), Trials(te, _unit_modes(te, 1.0 - t))
 
 
-def _unit_modes(pairs: Array, t: Vector) -> Array:
-    modes = np.array([pair(a, k, t) for a, k in pairs])
+def _unit_modes(rates: Array, t: Vector) -> Array:
+    modes = pairs(rates, t)
     return np.asarray(modes / np.linalg.norm(modes, axis=1, keepdims=True))
 
 

@@ -10,7 +10,8 @@ import numpy as np
 from bladecad.arrays import Array, Points, Vector, frozen
 from bladecad.errors import DataError, FitError, ToleranceError
 from bladecad.fit.differences import Model, Scheme, Solver, differences, regress
-from bladecad.fit.flow import Flow, evaluate
+from bladecad.fit.flow import Flow
+from bladecad.fit.orbit import Orbit
 from bladecad.fit.second_order import Ends, missed, second_order_flow
 from bladecad.fit.steps import Spacing, parameters, steps_of
 
@@ -161,7 +162,8 @@ def _first_order_flow(M: Array, output: tuple[float, Vector], start: Vector) -> 
 
 def _distance(flow: Flow, t: Vector, points: Points) -> Vector:
     with np.errstate(over="ignore", invalid="ignore"):
-        distance = np.linalg.norm(evaluate(flow, t) - points, axis=1)
+        curve = Orbit(flow.A * t[-1], flow.z0)(t / t[-1]) @ flow.C.T
+        distance = np.linalg.norm(curve - points, axis=1)
     return np.where(np.isfinite(distance), distance, np.inf)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
+from scipy.linalg.lapack import dposv
 
 from bladecad.arrays import Array, Mask, Vector
 from bladecad.fit.best_linear import BestLinear, best_linear, normal_equations
@@ -97,9 +97,10 @@ def _rss(best: Sequence[BestLinear]) -> float:
 def _gathered(best: Sequence[BestLinear], mix: Array, t: Vector) -> tuple[Array, Vector]:
     """Normal equations for theta from those of every block."""
     parts = [normal_equations(b, t) for b in best]
-    H = sum(np.kron(np.outer(w, w), Hb) for w, (Hb, _) in zip(mix, parts, strict=True))
-    g = sum(np.kron(w, gb) for w, (_, gb) in zip(mix, parts, strict=True))
-    return np.asarray(H), np.asarray(g)
+    H, g = (np.array(each) for each in zip(*parts, strict=True))
+    size = mix.shape[1] * g.shape[1]
+    together = np.einsum("bv,bw,bij->viwj", mix, mix, H).reshape(size, size)
+    return together, np.einsum("bw,bj->wj", mix, g).ravel()
 
 
 def _damped(H: Array, g: Vector, free: Mask, damping: float) -> Vector:
@@ -108,7 +109,10 @@ def _damped(H: Array, g: Vector, free: Mask, damping: float) -> Vector:
     scale = np.sqrt(np.maximum(np.diag(H), 0.0) + 1e-14 * abs(np.trace(H)))
     scaled = H / np.outer(scale, scale) + damping * np.eye(len(own))
     step = np.zeros(len(g))
-    step[free] = np.clip(cho_solve(cho_factor(scaled), own / scale) / scale, -LONGEST, LONGEST)
+    _, short, failed = dposv(scaled, own / scale)
+    if failed:
+        raise np.linalg.LinAlgError("normal equations of the rates are not positive definite")
+    step[free] = np.clip(short / scale, -LONGEST, LONGEST)
     return step
 
 

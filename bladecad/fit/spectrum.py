@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 from typing import final
 
 import numpy as np
@@ -67,17 +67,22 @@ class Spectrum:
     def __call__(self, t: Vector, order: int = 0) -> Array:
         """State z(t), or its derivative of any order, (k, n): each family from its own end."""
         t = np.asarray(t, dtype=np.float64)
-        modes = [pair(a, k, t, order) for a, k in self.le]
-        modes += [pair(a, k, 1.0 - t, order) * (-1.0) ** order for a, k in self.te]
-        return np.concatenate([self._core(t, order), *modes], axis=1)
+        le, te = pairs(self.le, t, order), pairs(self.te, 1.0 - t, order) * (-1.0) ** order
+        return np.concatenate([self._core(t, order), *le, *te], axis=1)
 
     def _core(self, t: Vector, order: int) -> Array:
         if len(self.knots):
             return basis(self.core, self.degree, t, order)
-        polynomials: Array = np.asarray(legendre.legvander(2.0 * t - 1.0, self.degree))
+        polynomials = _polynomials(self.degree, t.tobytes())
         for _ in range(order):
             polynomials = polynomials @ differentiation(self.degree).T
         return polynomials
+
+
+@lru_cache(maxsize=16)
+def _polynomials(degree: int, t: bytes) -> Array:
+    """Legendre's polynomials of 2t - 1; a search asks for the same ones at every step."""
+    return frozen(legendre.legvander(2.0 * np.frombuffer(t) - 1.0, degree))
 
 
 @cache
@@ -98,21 +103,40 @@ def pair(a: float, k: float, t: Vector, order: int = 0) -> Array:
 
     exp(-at) (cos wt', sin wt' / w) with t' = at and w = sqrt(k); for k < 0 two real rates.
     """
+    return np.asarray(pairs(np.array([[a, k]]), t, order)[0])
+
+
+def pairs(modes: Array, t: Vector, order: int = 0) -> Array:
+    """Many pairs at once, a row (a, k) each, (m, len(t), 2)."""
+    a, k = modes[:, :1], modes[:, 1]
     w = np.stack(decay(a * t, k), axis=-1)
     for _ in range(order):
-        w = w @ pair_matrix(a, k).T
-    return w
+        w = w @ np.reshape([pair_matrix(a, k).T for a, k in modes], (-1, 2, 2))
+    return np.asarray(w)
 
 
-def decay(tau: Vector, k: float) -> tuple[Vector, Vector]:
-    """exp(-tau) times cos(w tau) and sin(w tau)/w, w = sqrt(k), continued to k <= 0."""
-    if k > 0:
-        w = np.sqrt(k)
-        return np.exp(-tau) * np.cos(w * tau), np.exp(-tau) * np.sin(w * tau) / w
-    m = np.sqrt(-k)
-    slow = np.exp(-(1.0 - m) * tau)
-    fast = np.exp(-(1.0 + m) * tau)
-    return 0.5 * (slow + fast), -0.5 * slow * np.expm1(-2.0 * m * tau) / m if m else slow * tau
+def decay(tau: Array, k: Vector) -> tuple[Array, Array]:
+    """exp(-tau) times cos(w tau) and sin(w tau)/w, w = sqrt(k), continued to k <= 0; a row a k."""
+    y1, y2 = np.empty_like(tau), np.empty_like(tau)
+    for rows, kind in ((k > 0, _turning), (k < 0, _creeping), (k == 0, _critical)):
+        if rows.any():
+            y1[rows], y2[rows] = kind(tau[rows], np.sqrt(np.abs(k[rows, None])))
+    return y1, y2
+
+
+def _turning(tau: Array, w: Array) -> tuple[Array, Array]:
+    fading = np.exp(-tau)
+    return fading * np.cos(w * tau), fading * np.sin(w * tau) / w
+
+
+def _creeping(tau: Array, m: Array) -> tuple[Array, Array]:
+    slow, fast = np.exp(-(1.0 - m) * tau), np.exp(-(1.0 + m) * tau)
+    return 0.5 * (slow + fast), -0.5 * slow * np.expm1(-2.0 * m * tau) / m
+
+
+def _critical(tau: Array, _: Array) -> tuple[Array, Array]:
+    slow = np.exp(-tau)
+    return slow, slow * tau
 
 
 def _block_diagonal(blocks: list[Array]) -> Array:

@@ -48,8 +48,9 @@ def canvas(width: float, height: float) -> Figure:
 
 
 def save(figure: Figure, folder: Path, name: str) -> None:
-    """Write a figure as PNG and SVG, the same bytes every time."""
+    """Write a figure as PNG and SVG, laid out once, the same bytes every time."""
     figure.savefig(folder / f"{name}.png", metadata={"Software": "bladecad"})
+    figure.set_layout_engine("none")
     figure.savefig(folder / f"{name}.svg", metadata={"Creator": "bladecad", "Date": None})
 
 

@@ -7,13 +7,12 @@ from scipy.interpolate import PchipInterpolator
 
 from bladecad.arrays import Array, Points, Vector
 from bladecad.fit.differences import Model, Scheme
-from bladecad.fit.flow import evaluate
 from bladecad.fit.matching import MatchingFit, identify
 from bladecad.fit.second_order import Ends
 from bladecad.fit.steps import Spacing, parameters, steps_of
 from bladecad.replay.curves import Curves
 from bladecad.replay.running import run
-from bladecad.replay.subject import Stretch
+from bladecad.replay.subject import JUDGED, Stretch
 
 
 def matched_fits(
@@ -27,10 +26,8 @@ def matched(stretch: Stretch, spacing: Spacing, model: Model, scheme: Scheme) ->
     """Fit every line and run its flow at the points and between them."""
     fits = matched_fits(stretch, spacing, model, scheme)
     times = model_times(stretch, spacing)
-    at = [evaluate(fit.flow, fit.t) for fit in fits]
-    return Curves(
-        np.array(at), np.array([run(f.flow, t) for f, t in zip(fits, times, strict=True)])
-    )
+    dense = np.array([run(fit.flow, t) for fit, t in zip(fits, times, strict=True)])
+    return Curves(dense[:, ::JUDGED], dense)
 
 
 def model_times(stretch: Stretch, spacing: Spacing) -> Array:

@@ -15,8 +15,9 @@ from typing import Final
 import numpy as np
 
 from bladecad.arrays import Array, Lines, Vector
+from bladecad.fit.samples import Samples
 from bladecad.replay.curves import Curves
-from bladecad.replay.subject import Stretch
+from bladecad.replay.subject import JUDGED, Stretch
 
 Start = tuple[float, float, float]
 STARTS: Final[tuple[Start, ...]] = ((0.0, -9.0, -1.0), (0.0, 900.0, 1.0))
@@ -31,14 +32,20 @@ FLAT: Final = 1e-8  # s t^2 below which sinh(w t)/w is its series
 
 def on_trajectory(stretch: Stretch, starts: Sequence[Start] = STARTS) -> Curves:
     """Fit every line to its densified self, best of some starts."""
-    t, Y = stretch.fitted.t, stretch.fitted.points
+    dense = followed(stretch.fitted, stretch.judged.t, starts)
+    return Curves(dense[:, ::JUDGED], dense)
+
+
+def followed(samples: Samples, at: Vector, starts: Sequence[Start] = STARTS) -> Lines:
+    """Fit every line to its samples and evaluate it elsewhere, (m, len(at), 3), mm."""
+    t, Y = samples.t, samples.points
     trials = [
         _search(np.tile(start, (len(Y), 1)), t[::SEARCHED], Y[:, ::SEARCHED]) for start in starts
     ]
     misfits = np.array([_misfit(theta, t, Y)[0] for theta in trials])
     theta = np.array(trials)[misfits.argmin(axis=0), np.arange(len(Y))]
     C = _misfit(theta, t, Y)[2]
-    return Curves(modes(theta, stretch.t) @ C, modes(theta, stretch.judged.t) @ C)
+    return np.asarray(modes(theta, at) @ C)
 
 
 def modes(theta: Array, t: Vector) -> Array:

@@ -38,6 +38,14 @@ def largest(fit):
     return fit.distance.max()
 
 
+@pytest.mark.parametrize("total", [0.2, 1.0, 7.0])
+@pytest.mark.parametrize("model", MODELS)
+def test_the_distance_is_that_of_the_exponential_whatever_the_steps_sum_to(model, total):
+    fit = identify(side(), total * arc_length_steps(side()), model=model)
+    away = np.linalg.norm(evaluate(fit.flow, fit.t) - side(), axis=1)
+    np.testing.assert_allclose(fit.distance, away, atol=1e-8)
+
+
 @pytest.mark.parametrize(("scheme", "order"), [("forward", 1), ("midpoint", 2)])
 @pytest.mark.parametrize("model", MODELS[:2])
 def test_a_known_system_is_recovered_with_the_order_of_the_scheme(model, scheme, order):

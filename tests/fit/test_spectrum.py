@@ -5,11 +5,11 @@ from hypothesis import strategies as st
 from scipy.linalg import expm
 
 from bladecad.fit.flow import Flow, trajectory_rk4
-from bladecad.fit.spectrum import Spectrum, decay, pair, pair_matrix
+from bladecad.fit.spectrum import Spectrum, decay, pair, pair_matrix, pairs
 
 stiffness = st.floats(-0.9, 20.0)
 rates = st.tuples(st.floats(8.0, 400.0), stiffness)
-modes = st.lists(rates, max_size=3).map(lambda pairs: np.reshape(pairs, (-1, 2)))
+modes = st.lists(rates, max_size=3).map(lambda rows: np.reshape(rows, (-1, 2)))
 spectra = st.builds(Spectrum, st.integers(0, 9), modes, modes)
 times = st.floats(0, 1)
 
@@ -66,7 +66,21 @@ def test_runge_kutta_reaches_the_closed_form_with_order_four():
 @given(stiffness, st.floats(0, 30))
 def test_a_pair_is_the_exponential_of_its_matrix(k, tau):
     exact = expm(pair_matrix(1.0, k) * tau) @ [1.0, 0.0]
-    np.testing.assert_allclose(np.ravel(decay(np.array([tau]), k)), exact, rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(
+        np.ravel(decay(np.array([[tau]]), np.array([k]))), exact, rtol=1e-9, atol=1e-12
+    )
+
+
+def test_many_pairs_at_once_are_each_the_exponential_of_its_matrix():
+    """One that turns, one that creeps, one between them, and one of each again, in no order."""
+    rates = np.array([[9.0, 4.0], [30.0, -0.5], [12.0, 0.0], [8.0, 20.0], [50.0, -0.9]])
+    for order in (0, 2):
+        exact = [
+            [expm(M * t) @ np.linalg.matrix_power(M, order)[:, 0] for t in T]
+            for M in (pair_matrix(a, k) for a, k in rates)
+        ]
+        scale = rates[:, :1, None] ** order
+        np.testing.assert_allclose(pairs(rates, T, order) / scale, exact / scale, atol=1e-10)
 
 
 @given(st.floats(8, 400), stiffness)
@@ -85,7 +99,7 @@ def test_decay_runs_smoothly_through_the_double_rate():
         ]
     )
     for k in (1e-3, 1e-6, 1e-9, 1e-12, 0.0, -1e-12, -1e-9, -1e-6, -1e-3):
-        y = np.array(decay(tau, k))
+        y = np.concatenate(decay(tau[None], np.array([k])))
         expected = np.einsum("irt,r->it", series, [1.0, k, k**2])
         np.testing.assert_allclose(y, expected, atol=1e-15 + abs(k) ** 3 * 100)
 
