@@ -8,12 +8,11 @@ from numba import njit
 
 from bladecad.arrays import Array, Points, Vector
 from bladecad.deviation.newton import foot
-from bladecad.deviation.squares import WIDE, P, Q
+from bladecad.deviation.squares import P, Q
 
 NEAR = 1e-9  # mm, feet that are as far: on a border, the one its normal points from best is taken
 DEPTH = 64  # of the stack
-REACH = 0.2 * WIDE  # mm, points so near to each other share one search of the tree
-GROUP, MANY = 64, 256  # points at most that do, and squares that they may need
+GROUP, MANY = 64, 256  # points at most that share a search, and squares that they may need
 
 
 @njit(cache=True, nogil=True)
@@ -44,13 +43,14 @@ def nearest(
     points: Points, order: Array, low: Points, high: Points, item: Array,
     centre: Points, axes: Array, half: Points, start: Array, c: Array, sign: Vector,
     which: Array, place: Points, distance: Vector, feet: Points, normal: Points,
+    reach: float,
 ) -> int:  # fmt: skip
     """Find the foot of each point; points that follow each other in `order` should be near.
 
-    The tree is searched for the first point x of a group, the nearer child first: distance d. No
-    point of the group, all within r of x, is further than d + r from the blade, so its foot lies on
-    a square within d + 2r of x. Those are collected, and each point tries them, the nearest box
-    first, as long as their boxes are nearer than the best foot so far.
+    Points within `reach` of the first, x, are a group; for x the tree is searched, the nearer child
+    first: distance d. No point of the group, all within r of x, is further than d + r from the
+    blade, so its foot lies on a square within d + 2r of x. Those are collected, and each point
+    tries them, the nearest box first, as long as they are nearer than the best foot so far.
 
     All in one body: a call that takes the arrays along costs as much as the step it makes.
 
@@ -133,7 +133,7 @@ def nearest(
         while end < len(order) and end - k <= GROUP:
             i = order[end]
             d = (points[i, 0] - x) ** 2 + (points[i, 1] - y) ** 2 + (points[i, 2] - z) ** 2
-            if d > REACH * REACH:
+            if d > reach * reach:
                 break
             r, end = max(r, d), end + 1
         if end == k + 1:

@@ -15,6 +15,7 @@ from bladecad.arrays import Array, Points, Vector, seal
 from bladecad.deviation.boxes import Boxes, Tree, bernstein, boxes, morton, tree
 from bladecad.deviation.squares import P, Q, Squares
 
+GROUP: Final = 0.4  # of half the diagonal of a square: points so near share a search
 CHUNK: Final = 1 << 20  # points; what a thread holds at a time
 
 
@@ -68,12 +69,14 @@ def search(skin: Skin, points: Points) -> Found:
     from bladecad.deviation.kernel import nearest
 
     T, B, S = skin.tree, skin.boxes, skin.squares
+    reach = GROUP * float(np.median(np.linalg.norm(B.half, axis=1)))
 
     def job(points: Points, order: NDArray[np.int64], found: Found) -> int:
         return int(
             nearest(
                 points, order, T.lowest, T.highest, T.item, B.centre, B.axes, B.half, skin.start,
                 S.c, S.sign, found.item, found.place, found.distance, found.foot, found.normal,
+                reach,
             )
         )  # fmt: skip
 

@@ -16,7 +16,7 @@ Chart = Callable[[Vector, Vector], Array]  # X on the grid u x t, (len(u), len(t
 
 P, Q = 3, 7  # degrees in u and t: a spline law is cubic in u, the flow in t is what it is
 EXACT = 1e-9  # mm, of the squares from the chart
-WIDE, TURN = 2.0, 0.2  # mm and rad, the largest square: small enough to hold one foot
+WIDE, TURN = 0.02, 0.2  # of the size of the face, and rad: the largest square, to hold one foot
 SLIGHT = 1e-2  # of the largest |X_v x X_w|; below, the normal is not looked at
 ROUNDS = 16
 LARGEST = 500_000  # squares
@@ -163,15 +163,22 @@ def _parts(c: Array, off_u: Array, off_t: Array) -> tuple[NDArray[np.int64], NDA
     size = np.linalg.norm(N, axis=4, keepdims=True)
     seen = size > SLIGHT * size.max()  # a ruled face folds flat where it ends in an edge
     N = np.where(seen, N / np.where(seen, size, 1.0), np.nan)
+    follows = max(off_u.max(), off_t.max()) <= EXACT  # before, the squares turn as they like
     parts = []
-    for axis, off in ((2, off_u), (3, off_t)):
-        wide = np.linalg.norm(np.diff(X, axis=axis), axis=4).sum(axis=axis).max(axis=2)
-        turns = np.linalg.norm(np.nan_to_num(np.diff(N, axis=axis)), axis=4)
-        turn = turns.sum(axis=axis).max(axis=2)
-        need = np.maximum(np.maximum(wide / WIDE, turn / TURN), np.where(off > EXACT, 2.0, 1.0))
-        worst = need.max(axis=3 - axis)
-        parts.append(np.ceil(np.minimum(worst, 8.0) - 1e-9).astype(np.int64))
+    for axis, off, degree in ((2, off_u, P), (3, off_t, Q)):
+        need = (off / EXACT) ** (1.0 / (degree + 1))
+        if follows:
+            wide = np.linalg.norm(np.diff(X, axis=axis), axis=4).sum(axis=axis).max(axis=2)
+            turns = np.linalg.norm(np.nan_to_num(np.diff(N, axis=axis)), axis=4)
+            need = np.maximum(wide / (WIDE * _size(X)), turns.sum(axis=axis).max(axis=2) / TURN)
+        worst = np.clip(need.max(axis=3 - axis), 1.0, 8.0)
+        parts.append(np.ceil(worst - 1e-9).astype(np.int64))
     return parts[0], parts[1]
+
+
+def _size(X: Array) -> float:
+    """Diagonal of the box that holds the face, mm."""
+    return float(np.linalg.norm(np.ptp(X.reshape(-1, 3), axis=0)))
 
 
 def _refined(breaks: Vector, parts: NDArray[np.int64]) -> Vector:
