@@ -45,7 +45,7 @@ def read_scan(path: str | PathLike[str], *, unit: Unit | None = None) -> Scan:
         If the file cannot be read, is cut off, or holds no points.
     """
     path = Path(path)
-    if path.is_dir() or _holds_sections(_checked(path)):
+    if path.is_dir() or holds_sections(_checked(path)):
         return _of_sections(path, unit)
     form = mesh_format(path)
     if form:
@@ -100,7 +100,7 @@ def _checked(path: Path) -> Path:
     return path
 
 
-def _holds_sections(path: Path) -> bool:
+def holds_sections(path: Path) -> bool:
     """Whether a file is told to be sections by more than its rows of numbers."""
     with path.open("rb") as file:
         head = file.read(HEAD)

@@ -66,7 +66,7 @@ def read_cloud(path: Path) -> Cloud:
     DataError
         If no row has three numbers, a row is misspelt or cut off, or points are missing.
     """
-    layout = _layout(path)
+    layout = layout_of(path)
     parts: list[Array] = []
     passed, line = 0, layout.header
     for chunk in _chunks(path, layout.header):
@@ -92,7 +92,7 @@ def _notes(layout: Layout, passed: int) -> Iterator[str]:
         yield f"{passed} lines without numbers passed over"
 
 
-def _layout(path: Path) -> Layout:
+def layout_of(path: Path) -> Layout:
     """Learn from the first lines how the file is written."""
     with path.open("rb") as file:
         head = file.read(1 << 16)
