@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from time import perf_counter
 from typing import TYPE_CHECKING, final
 
 from threadpoolctl import threadpool_limits
@@ -28,18 +25,17 @@ from bladecad.fit.matched import fit_matched
 from bladecad.fit.modal import prepare
 from bladecad.fit.order import fit_blade, met
 from bladecad.fit.segments import fit_segments
+from bladecad.pipeline.body import body_of
+from bladecad.pipeline.clock import Clock, Progress
 from bladecad.surface.between import leave_one_out
 from bladecad.surface.blade import BladeSurface, EdgeKind, Law
 from bladecad.surface.homotopy import refitted
-from bladecad.surface.loft import Loft, loft
-from bladecad.surface.triangulate import BladeMesh, triangulate
-from bladecad.surface.volume import volume
+from bladecad.surface.loft import Loft
+from bladecad.surface.triangulate import BladeMesh
 
 if TYPE_CHECKING:
     from bladecad.brep.solid import Solid
 
-Progress = Callable[[str], None]
-LOFT = 1e-3  # mm, distance of the solid from S
 EDGES: dict[ModelName, tuple[EdgeKind, EdgeKind]] = {
     "paper": ("sharp", "blunt"),
     "affine": ("sharp", "blunt"),
@@ -130,27 +126,6 @@ class Build:
         return not self.reasons
 
 
-@final
-class Clock:
-    """Wall time of each step, told as it begins; each runs in one thread.
-
-    Many small factorisations and products: threads would only wait for each other.
-    """
-
-    def __init__(self, progress: Progress) -> None:
-        self.progress = progress
-        self.seconds: dict[str, float] = {}
-
-    @contextmanager
-    def step(self, name: str) -> Iterator[None]:
-        """Time one step."""
-        self.progress(name)
-        start = perf_counter()
-        with threadpool_limits(1):
-            yield
-        self.seconds[name] = perf_counter() - start
-
-
 def build(
     path: str | Path, settings: Settings = Settings(), *, progress: Progress = lambda _: None
 ) -> Build:
@@ -189,22 +164,14 @@ def build(
             if fitted.order
             else None
         )
-    with clock.step("loft"):
-        lofted = loft(surface, tolerance=LOFT)
-        inside = volume(lofted.suction, lofted.pressure)
-    with clock.step("solid"):
-        from bladecad.brep.limits import Limits
-        from bladecad.brep.solid import build_solid
-
-        limits = Limits(fold=max(Limits.fold, settings.tolerance))  # as exact as the sides are
-        solid = build_solid(lofted.suction, lofted.pressure, volume=inside, limits=limits)
-    with clock.step("triangles"):
-        mesh = triangulate(surface, chord_error=settings.chord_error, volume=inside)
+    body = body_of(
+        surface, tolerance=settings.tolerance, chord_error=settings.chord_error, clock=clock
+    )
     with clock.step("deviation"):
-        deviation = measure(surface, mesh, sections, keep)
+        deviation = measure(surface, body.mesh, sections, keep)
     return Build(
-        settings, sections, found, odd, lines, fitted, surface, lofted, solid, mesh, deviation,
-        between, alone, scatter, clock.seconds,
+        settings, sections, found, odd, lines, fitted, surface, body.loft, body.solid, body.mesh,
+        deviation, between, alone, scatter, clock.seconds,
     )  # fmt: skip
 
 

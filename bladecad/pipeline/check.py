@@ -21,7 +21,7 @@ from bladecad.deviation.inspection import Inspection, inspect
 from bladecad.deviation.pose import Freedom
 from bladecad.deviation.registration import Kind, register
 from bladecad.errors import DataError, ToleranceError
-from bladecad.pipeline.build import Clock, Progress
+from bladecad.pipeline.clock import Clock, Progress
 from bladecad.pipeline.nominal import (
     LoadedNominal,
     NominalSettings,

@@ -26,7 +26,8 @@ from bladecad.deviation.nominal import (
 from bladecad.deviation.referee import Referee, confirm, confirm_on
 from bladecad.errors import DataError, FitError
 from bladecad.fit.blade import BladeFit
-from bladecad.pipeline.build import Progress, Settings, fit, load, split, surface_of
+from bladecad.pipeline.build import Settings, fit, load, split, surface_of
+from bladecad.pipeline.clock import Progress
 from bladecad.pipeline.locator import Locator, locator_of_faces, locator_of_mesh
 from bladecad.surface.blade import BladeSurface
 from bladecad.surface.triangulate import triangulate
