@@ -11,15 +11,21 @@ import numpy as np
 import pytest
 from numba import njit
 from scipy.spatial.transform import Rotation
+from threadpoolctl import threadpool_limits
 
+from bladecad.curves.outliers import keep_masks, misprints
+from bladecad.curves.repair import repaired
+from bladecad.curves.sides import split_sides
 from bladecad.data.profile import Profile
+from bladecad.data.read import read_sections
 from bladecad.data.scan import Scan
 from bladecad.data.sections import Source
 from bladecad.data.synthetic import profiles
 from bladecad.deviation.newton import evaluate
 from bladecad.deviation.nominal import Nominal, nominal_of
 from bladecad.deviation.project import project
-from bladecad.pipeline import Settings, fit, load, split, surface_of
+from bladecad.fit.order import fit_blade
+from bladecad.surface.blade import BladeSurface
 from bladecad.surface.loft import SIDES, graded
 from tests.scans.analytic import AnalyticBlade
 from tests.scans.root import Root, Stand, cap, strips
@@ -68,9 +74,11 @@ def truth_surface(name="rotor37"):
         return ANALYTIC[name]()
     if not FILES[name].exists():
         pytest.skip(f"{FILES[name]} is not there")
-    asked = Settings(tolerance=0.012)
-    sections, _, keep = load(FILES[name], asked)
-    return surface_of(fit(split(sections, asked, keep), asked))
+    sections = repaired(read_sections(FILES[name]))
+    with threadpool_limits(1):
+        lines = split_sides(sections, keep=list(keep_masks(sections, misprints(sections))))
+        found = fit_blade(lines, tolerance=0.012)
+    return BladeSurface(lines.span, found.suction, found.pressure, le=lines.le, te=lines.te)
 
 
 @cache
