@@ -20,6 +20,7 @@ from bladecad.surface.blade import BladeSurface, SideName, outward
 Kind = Literal["surface", "patches", "mesh"]
 ALIGNED = 0.5  # cosine; a triangle that turns further from the airfoil closes it, or is a rim
 BEGIN = np.linspace(0.0, 1.0, 9)
+CLOSE = 1e-9  # of t: breaks that are one
 SIDES: tuple[SideName, SideName] = ("suction", "pressure")
 
 
@@ -130,7 +131,7 @@ def _turned_outwards(blade: Nominal, part: Squares) -> Squares:
 def _sides(surface: BladeSurface) -> list[Squares]:
     u = np.unique(surface.knots[0])
     parts = [
-        cut(_on(surface, name), u, BEGIN, face=k, sign=outward(surface, name))
+        cut(_on(surface, name), u, _breaks(surface, name), face=k, sign=outward(surface, name))
         for k, name in enumerate(SIDES)
     ]
     for end, name, kind in ((0.0, "LEADING_EDGE", surface.le), (1.0, "TRAILING_EDGE", surface.te)):
@@ -138,6 +139,13 @@ def _sides(surface: BladeSurface) -> list[Squares]:
             out = _mean(surface, 0, 1, 0.5, end) * (2.0 * end - 1.0)
             parts.append(_ruled(_across_edge(surface, end), u, BEGIN, name, out))
     return parts
+
+
+def _breaks(surface: BladeSurface, name: SideName) -> Vector:
+    """Where to begin to cut a side along t: also where its flows are restarted."""
+    own = [getattr(b, "knots", BEGIN) for b in surface.side(name).bases]
+    breaks = np.unique(np.concatenate([BEGIN, *own]))
+    return np.asarray(breaks[np.diff(breaks, prepend=-1.0) > CLOSE])
 
 
 def _caps(surface: BladeSurface) -> list[Squares]:

@@ -11,6 +11,7 @@ from scipy.linalg import block_diag, null_space, qr, svd
 from bladecad.arrays import Array
 from bladecad.curves.outline import EdgeKind
 from bladecad.fit.samples import Samples, by_section
+from bladecad.fit.sidefit import Basis
 from bladecad.fit.spectrum import Spectrum
 
 JOINED: dict[EdgeKind, int] = {"round": 3, "sharp": 1, "blunt": 0}  # value, tangent, curvature
@@ -34,7 +35,7 @@ class JointFit:
     condition: float
 
 
-def edge_conditions(S: Spectrum, P: Spectrum, le: EdgeKind, te: EdgeKind) -> Array:
+def edge_conditions(S: Basis, P: Basis, le: EdgeKind, te: EdgeKind) -> Array:
     """Rows B with B (C_S, C_P) = 0 where the sides share value, tangent and curvature, (q, n).
 
     X_S = X_P, X_S' = -X_P', X_S'' = X_P'' at t = 0 and 1: the sides leave an edge in opposite

@@ -1,0 +1,106 @@
+"""A surface moved towards all points at once: foot points, weights, one sparse solve; again."""
+
+from __future__ import annotations
+
+from typing import Final, NamedTuple
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from bladecad.arrays import Array, Mask, Points, Vector
+from bladecad.deviation.feet import Feet
+from bladecad.deviation.nominal import nominal_of
+from bladecad.deviation.project import project
+from bladecad.scans.freedom import Freedom, local_poles, moved
+from bladecad.scans.neighbours import of_the_airfoil
+from bladecad.scans.normal import Normal, accumulate
+from bladecad.scans.prior import Roughness
+from bladecad.scans.robust import weights
+from bladecad.scans.solve import best_move
+from bladecad.surface.blade import BladeSurface, normals
+from bladecad.surface.loft import SIDES, graded
+
+PROBES: Final = (41, 101)  # places in u and t at which a move is measured
+
+
+class Step(NamedTuple):
+    """One pass.
+
+    surface : after it
+    feet    : of the points on the surface before it
+    weight  : (k,) float; what each of them counted
+    motion  : rms move of the surface along its normal, mm
+    """
+
+    surface: BladeSurface
+    feet: Feet
+    weight: Vector
+    motion: float
+
+
+def descend(
+    surface: BladeSurface,
+    free: Freedom,
+    points: Points,
+    prior: Roughness,
+    floor: float,
+    damping: float,
+) -> Step:
+    """Take one Gauss-Newton step of tangent-distance least squares on the points.
+
+    The move d makes up for the distance along the normal, n . d = distance; along the section it is
+    damped, tau . d = 0 with a small weight (Blake and Isard; Wang, Pottmann and Liu, Fitting
+    B-spline curves to point clouds by curvature-based squared distance minimization, 2006).
+
+    Parameters
+    ----------
+    surface : BladeSurface
+    free : Freedom
+    points : (k, 3) float, mm
+    prior : Roughness
+    floor : float
+        mm; scatter below which no point is an outlier.
+    damping : float
+        Weight of a move along the section, beside one across it.
+    """
+    feet, weight = standing(surface, points, floor)
+    n = feet.normal @ free.axes.T
+    tau = (
+        np.column_stack([-n[:, 1], n[:, 0]]) / np.maximum(np.linalg.norm(n, axis=1), 1e-9)[:, None]
+    )
+    M = weight[:, None] * (_products(n) + damping**2 * _products(tau))
+    f = n * (weight * feet.distance)[:, None]
+    sums = tuple(
+        _sums(free, feet, M, f, which & (weight > 0)) for which in (feet.suction, ~feet.suction)
+    )
+    with threadpool_limits(2):
+        y = best_move(free, (sums[0], sums[1]), prior, local_poles(surface, free))
+    after = moved(surface, free, y)
+    return Step(after, feet, weight, _motion(surface, after))
+
+
+def standing(surface: BladeSurface, points: Points, floor: float) -> tuple[Feet, Vector]:
+    """Where the points stand on a surface, and what each of them counts."""
+    feet = project(nominal_of(surface), points)
+    on = of_the_airfoil(feet)
+    weight = np.zeros(len(points))
+    weight[on] = weights(feet.distance[on], feet.suction[on], feet.t[on], floor)
+    return feet, weight
+
+
+def _products(a: Array) -> Array:
+    return np.column_stack([a[:, 0] ** 2, a[:, 0] * a[:, 1], a[:, 1] ** 2])
+
+
+def _sums(free: Freedom, feet: Feet, M: Array, f: Array, which: Mask) -> Normal:
+    k = np.flatnonzero(which)
+    return accumulate(free.in_u, free.in_t, feet.u[k], feet.t[k], M[k], f[k])
+
+
+def _motion(before: BladeSurface, after: BladeSurface) -> float:
+    u, t = np.linspace(0.0, 1.0, PROBES[0]), graded(PROBES[1])
+    d = [
+        np.einsum("utx,utx->ut", after(s, u, t) - before(s, u, t), normals(before, s, u, t))
+        for s in SIDES
+    ]
+    return float(np.sqrt(np.mean(np.square(d))))

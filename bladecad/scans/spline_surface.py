@@ -1,0 +1,137 @@
+"""A smooth surface of splines through all points, with as many spans as the points ask for."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from bladecad.arrays import Points, Vector
+from bladecad.curves.sides import BladeLines
+from bladecad.errors import DataError
+from bladecad.scans.descent import descend, standing
+from bladecad.scans.freedom import Freedom, freedom
+from bladecad.scans.knots import breaks_along
+from bladecad.scans.laid_on import laid_on, through
+from bladecad.scans.local import Splines
+from bladecad.scans.neighbours import Scatter, scatter
+from bladecad.scans.prior import roughness
+from bladecad.surface.blade import BladeSurface
+
+log = logging.getLogger(__name__)
+Progress = Callable[[str], None]
+
+LADDER: Final = ((11, 0.36), (15, 0.30), (21, 0.25), (29, 0.21), (41, 0.18))  # stations, rad a span
+UNRELATED: Final = 0.02  # correlation of neighbouring residuals: nothing but noise is left
+LESS: Final = 0.7  # of the correlation; a rung that leaves more is not taken
+EACH: Final = 6  # points a span at least
+FEW: Final = 60_000  # points of the first passes
+FIRST_PASSES: Final = 3
+DAMPING: Final = 0.3  # of moves along a section: at an edge, splines would slide over each other
+FAR: Final = 0.02
+FLOOR: Final = 0.005  # mm; scatter below which no point is an outlier, first and last
+
+
+class Smooth(NamedTuple):
+    """A surface of splines, how it came about, and what it leaves.
+
+    surface : BladeSurface
+    breaks  : of its splines along the sides
+    scatter : of the points about it
+    passes  : over all points
+    """
+
+    surface: BladeSurface
+    breaks: Vector
+    scatter: Scatter
+    passes: int
+
+    @property
+    def criterion(self) -> str:
+        """Why it has these spans, in a sentence."""
+        size = f"{len(self.surface.span) - 1} spans along it, {2 * len(self.breaks) - 2} round it"
+        left = f"correlation {self.scatter.correlation:.3f}"
+        if self.scatter.correlation < UNRELATED:
+            return (
+                f"{size}: neighbouring residuals are unrelated ({left} < {UNRELATED}); what is "
+                "left is noise"
+            )
+        return (
+            f"{size}: neighbouring residuals stay related ({left}), and more spans do not change "
+            f"that, or would have fewer than {EACH} points each"
+        )
+
+
+def smooth_surface(
+    points: Points, start: BladeLines, axis: Vector, progress: Progress = lambda _: None
+) -> Smooth:
+    """Lay a surface through the points, finer until what is left of neighbours is unrelated.
+
+    Raises
+    ------
+    DataError
+        If there are fewer points than the coarsest surface needs.
+    """
+    best = _first(points, through(start), axis, progress)
+    for stations, turn in LADDER[1:]:
+        breaks = breaks_along(best.surface, turn)
+        if best.scatter.correlation < UNRELATED or len(points) < _needed(stations, breaks):
+            break
+        finer = _finer(points, best, stations, breaks, axis, progress)
+        if finer.scatter.correlation > LESS * best.scatter.correlation:
+            break
+        best = finer
+    return best
+
+
+def _first(points: Points, surface: BladeSurface, axis: Vector, progress: Progress) -> Smooth:
+    """The coarsest surface: a few passes over a few points, one over all."""
+    stations, turn = LADDER[0]
+    breaks = breaks_along(surface, turn)
+    if len(points) < _needed(stations, breaks):
+        raise DataError(
+            f"{len(points)} points are on the airfoil, {_needed(stations, breaks)} are needed to "
+            "lay a surface through them; scan closer"
+        )
+    surface, free = _written(surface, stations, breaks, axis, progress)
+    few, prior = points[:: max(len(points) // FEW, 1)], roughness(surface, free, FAR)
+    for _ in range(FIRST_PASSES):
+        surface = descend(surface, free, few, prior, FAR, DAMPING).surface
+    prior = roughness(surface, free, _left(surface, few).noise)
+    surface = descend(surface, free, points, prior, FLOOR, DAMPING).surface
+    return _told(Smooth(surface, breaks, _left(surface, points), 1))
+
+
+def _finer(
+    points: Points, last: Smooth, stations: int, breaks: Vector, axis: Vector, progress: Progress
+) -> Smooth:
+    """The next rung, from where the last one stands."""
+    surface, free = _written(last.surface, stations, breaks, axis, progress)
+    prior = roughness(surface, free, last.scatter.noise)
+    surface = descend(surface, free, points, prior, FLOOR, DAMPING).surface
+    return _told(Smooth(surface, breaks, _left(surface, points), last.passes + 1))
+
+
+def _written(
+    surface: BladeSurface, stations: int, breaks: Vector, axis: Vector, progress: Progress
+) -> tuple[BladeSurface, Freedom]:
+    progress(f"fit a smooth surface, {stations - 1} x {2 * len(breaks) - 2} spans")
+    basis = Splines.on(breaks)
+    written = laid_on(surface, (basis, basis), np.linspace(0.0, 1.0, stations))
+    return written, freedom(written, basis, axis)
+
+
+def _left(surface: BladeSurface, points: Points) -> Scatter:
+    feet, weight = standing(surface, points, FLOOR)
+    return scatter(feet, weight > 0)
+
+
+def _told(found: Smooth) -> Smooth:
+    log.info("%d x %d: %s", len(found.surface.span), 2 * len(found.breaks), found.scatter)
+    return found
+
+
+def _needed(stations: int, breaks: Vector) -> int:
+    return EACH * (stations - 1) * 2 * (len(breaks) - 1)

@@ -1,0 +1,162 @@
+"""The whole surface fitted to all points of a scan at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Final, final
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from bladecad.arrays import Points, Vector, seal
+from bladecad.curves.repair import repaired
+from bladecad.curves.sides import BladeLines, split_sides
+from bladecad.data.sections import Sections
+from bladecad.deviation.feet import Feet
+from bladecad.errors import DataError, FitError
+from bladecad.fit.blade import BladeFit, Order
+from bladecad.fit.judge import Bench, judge
+from bladecad.fit.order import fit_blade
+from bladecad.scans.descent import descend, standing
+from bladecad.scans.freedom import freedom
+from bladecad.scans.knots import breaks_along
+from bladecad.scans.laid_on import sections_of
+from bladecad.scans.local import Splines
+from bladecad.scans.neighbours import scatter
+from bladecad.scans.prior import roughness
+from bladecad.scans.spline_surface import DAMPING, FLOOR, Smooth, smooth_surface
+from bladecad.surface.blade import BladeSurface
+
+Progress = Callable[[str], None]
+FINEST: Final = 0.002  # mm; flows need not follow the smooth surface closer
+SHARE: Final = 0.5  # of the noise, to which the flows follow the smooth surface
+PASSES: Final = 2
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class WholeFit:
+    """A blade surface and all points of the airfoil on it.
+
+    fit         : modal; its lines are sections of the smooth surface, its errors those from them
+    surface     : S(u,t), fitted to all points
+    points      : (k, 3) float, mm
+    feet        : (k,) of all of them; the distance is the deviation
+    weight      : (k,) float, 1 .. 0; 0 for points that are no part of the surface
+    noise       : sigma of the points, mm, from differences of neighbours
+    excess      : rms of those that count over the noise; 1 where only noise is left
+    correlation : of neighbouring residuals, 0 where only noise is left
+    criterion   : why this order and these spans
+    passes      : over all points
+    """
+
+    fit: BladeFit
+    surface: BladeSurface
+    points: Points
+    feet: Feet
+    weight: Vector
+    noise: float
+    excess: float
+    correlation: float
+    criterion: str
+    passes: int
+
+    def __post_init__(self) -> None:
+        seal(self, points=(None, 3), weight=(len(self.points),))
+
+
+def fit_scan(
+    points: Points,
+    start: BladeLines,
+    axis: Vector,
+    *,
+    tolerance: float,
+    order: Order | None = None,
+    progress: Progress = lambda _: None,
+) -> WholeFit:
+    """Fit S(u,t) to all points of an airfoil.
+
+    First a smooth surface of splines is laid through the points, with as many spans as neighbouring
+    residuals ask for; it is free of noise, as sections cut from the points are not. Its sections
+    give edges, rates and order of the flows; these are then fitted to all points in turn.
+
+    Parameters
+    ----------
+    points : (k, 3) float, mm
+        Of the airfoil alone.
+    start : BladeLines
+        Sections through them, good to some 50 um.
+    axis : (3,) float, unit
+        Stacking axis; the surface moves across it.
+    tolerance : float
+        mm; the flows follow the smooth surface to half the noise, but no closer than 2 um and no
+        coarser than the tolerance.
+    order : Order, optional
+        Fixed; otherwise the smallest that does.
+
+    Raises
+    ------
+    DataError
+        If the points are too few for a surface.
+    FitError
+        If the flows cannot follow.
+    """
+    smooth = smooth_surface(points, start, axis, progress)
+    fitted = _flows(smooth, tolerance, order, progress)
+    return _settled(points, smooth, fitted, axis, tolerance, progress)
+
+
+def _flows(smooth: Smooth, tolerance: float, order: Order | None, progress: Progress) -> BladeFit:
+    """Fit flows to sections of the smooth surface."""
+    sections = repaired(sections_of(smooth.surface, smooth.surface.span, smooth.breaks))
+    lines = _split(sections)
+    close = float(np.clip(SHARE * smooth.scatter.noise, min(FINEST, tolerance), tolerance))
+    progress("fit the flows")
+    with threadpool_limits(1):
+        try:
+            return fit_blade(lines, tolerance=close, order=order, progress=progress)
+        except FitError as error:
+            if not isinstance(error.best, BladeFit):
+                raise
+            return error.best
+
+
+def _split(sections: Sections) -> BladeLines:
+    try:
+        return split_sides(sections, edges="find")
+    except DataError:
+        return split_sides(sections)
+
+
+def _settled(
+    points: Points,
+    smooth: Smooth,
+    fitted: BladeFit,
+    axis: Vector,
+    tolerance: float,
+    progress: Progress,
+) -> WholeFit:
+    """Move the flows to all points, and judge what is left."""
+    lines = fitted.lines
+    surface = BladeSurface(
+        lines.span, fitted.suction, fitted.pressure, "spline", lines.le, lines.te
+    )
+    breaks = breaks_along(surface)
+    in_t = Splines.on(np.sort(np.concatenate([breaks, 0.5 * (breaks[1:] + breaks[:-1])])))
+    free = freedom(surface, in_t, axis)
+    prior = roughness(surface, free, smooth.scatter.noise)
+    for k in range(PASSES):
+        progress(f"fit the surface, pass {k + 1}")
+        surface = descend(surface, free, points, prior, FLOOR, DAMPING).surface
+    feet, weight = standing(surface, points, FLOOR)
+    left = scatter(feet, weight > 0)
+    errors = judge(Bench.of(lines), surface.suction, surface.pressure)
+    fit = replace(
+        fitted, suction=surface.suction, pressure=surface.pressure, errors=errors,
+        tolerance=tolerance, reason="",
+    )  # fmt: skip
+    return WholeFit(
+        fit, surface, points, feet, weight, left.noise, left.excess, left.correlation,
+        smooth.criterion, smooth.passes + PASSES,
+    )  # fmt: skip
