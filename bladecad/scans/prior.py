@@ -27,6 +27,11 @@ class Roughness(NamedTuple):
     along_u: Pair
     along_t: Pair
 
+    def times(self, factor: float) -> Roughness:
+        """The same, weighed more or less."""
+        u, t = (Pair(factor * w.suction, factor * w.pressure) for w in self)
+        return Roughness(u, t)
+
 
 def roughness(surface: BladeSurface, free: Freedom, noise: float) -> Roughness:
     """Weigh smoothness as its own size tells: sigma^2 / tau^2, tau the rms third difference.

@@ -29,6 +29,7 @@ LESS: Final = 0.7  # of the correlation; a rung that leaves more is not taken
 EACH: Final = 6  # points a span at least
 FEW: Final = 60_000  # points of the first passes
 FIRST_PASSES: Final = 3
+STIFF_PASSES: Final = 2
 DAMPING: Final = 0.3  # of moves along a section: at an edge, splines would slide over each other
 FAR: Final = 0.02
 FLOOR: Final = 0.005  # mm; scatter below which no point is an outlier, first and last
@@ -112,6 +113,16 @@ def _finer(
     prior = roughness(surface, free, last.scatter.noise)
     surface = descend(surface, free, points, prior, FLOOR, DAMPING).surface
     return _told(Smooth(surface, breaks, _left(surface, points), last.passes + 1))
+
+
+def stiffened(points: Points, last: Smooth, factor: float, axis: Vector) -> Smooth:
+    """The same spans, smoothness weighed more: where noise has folded an edge over."""
+    basis = Splines.on(last.breaks)
+    free, surface = freedom(last.surface, basis, axis), last.surface
+    prior = roughness(surface, free, last.scatter.noise).times(factor)
+    for _ in range(STIFF_PASSES):
+        surface = descend(surface, free, points, prior, FLOOR, DAMPING).surface
+    return _told(Smooth(surface, last.breaks, _left(surface, points), last.passes + STIFF_PASSES))
 
 
 def _written(

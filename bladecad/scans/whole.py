@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Final, final
@@ -12,7 +13,6 @@ from threadpoolctl import threadpool_limits
 from bladecad.arrays import Points, Vector, seal
 from bladecad.curves.repair import repaired
 from bladecad.curves.sides import BladeLines, split_sides
-from bladecad.data.sections import Sections
 from bladecad.deviation.feet import Feet
 from bladecad.errors import DataError, FitError
 from bladecad.fit.blade import BladeFit, Order
@@ -25,13 +25,15 @@ from bladecad.scans.laid_on import sections_of
 from bladecad.scans.local import Splines
 from bladecad.scans.neighbours import scatter
 from bladecad.scans.prior import roughness
-from bladecad.scans.spline_surface import DAMPING, FLOOR, Smooth, smooth_surface
+from bladecad.scans.spline_surface import DAMPING, FLOOR, Smooth, smooth_surface, stiffened
 from bladecad.surface.blade import BladeSurface
 
+log = logging.getLogger(__name__)
 Progress = Callable[[str], None]
 FINEST: Final = 0.002  # mm; flows need not follow the smooth surface closer
 SHARE: Final = 0.5  # of the noise, to which the flows follow the smooth surface
 PASSES: Final = 2
+STIFFER: Final = (10.0, 100.0, 1000.0)  # times the weight of smoothness
 
 
 @final
@@ -102,15 +104,34 @@ def fit_scan(
     FitError
         If the flows cannot follow.
     """
-    smooth = smooth_surface(points, start, axis, progress)
-    fitted = _flows(smooth, tolerance, order, progress)
+    smooth, lines = _sections(points, smooth_surface(points, start, axis, progress), axis)
+    fitted = _flows(smooth, lines, tolerance, order, progress)
     return _settled(points, smooth, fitted, axis, tolerance, progress)
 
 
-def _flows(smooth: Smooth, tolerance: float, order: Order | None, progress: Progress) -> BladeFit:
-    """Fit flows to sections of the smooth surface."""
+def _sections(points: Points, smooth: Smooth, axis: Vector) -> tuple[Smooth, BladeLines]:
+    """Cut the smooth surface into sections; stiffen it where noise has folded their edges."""
+    for factor in STIFFER:
+        try:
+            return smooth, _split(smooth)
+        except DataError as error:
+            log.info("%s; smoothness is weighed %g times", error, factor)
+            smooth = stiffened(points, smooth, factor, axis)
+    return smooth, _split(smooth)
+
+
+def _split(smooth: Smooth) -> BladeLines:
     sections = repaired(sections_of(smooth.surface, smooth.surface.span, smooth.breaks))
-    lines = _split(sections)
+    try:
+        return split_sides(sections, edges="find")
+    except DataError:
+        return split_sides(sections)
+
+
+def _flows(
+    smooth: Smooth, lines: BladeLines, tolerance: float, order: Order | None, progress: Progress
+) -> BladeFit:
+    """Fit flows to sections of the smooth surface."""
     close = float(np.clip(SHARE * smooth.scatter.noise, min(FINEST, tolerance), tolerance))
     progress("fit the flows")
     with threadpool_limits(1):
@@ -120,13 +141,6 @@ def _flows(smooth: Smooth, tolerance: float, order: Order | None, progress: Prog
             if not isinstance(error.best, BladeFit):
                 raise
             return error.best
-
-
-def _split(sections: Sections) -> BladeLines:
-    try:
-        return split_sides(sections, edges="find")
-    except DataError:
-        return split_sides(sections)
 
 
 def _settled(
