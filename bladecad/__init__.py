@@ -5,6 +5,8 @@
     blade = bladecad.build("sections.csv", bladecad.Settings(tolerance=0.012))
     bladecad.export_blade(blade, "blade")
 
+    scanned = bladecad.build_scan("scan.ply")
+
 Names are loaded when they are first asked for: importing bladecad costs nothing, and a model file
 can be loaded and evaluated with numpy alone.
 """
@@ -60,6 +62,16 @@ if TYPE_CHECKING:
     from bladecad.pipeline import build as build
     from bladecad.pipeline import check as check
     from bladecad.pipeline import load_nominal as load_nominal
+    from bladecad.pipeline.scan import build_scan as build_scan
+    from bladecad.pipeline.scan_build import ScanBuild as ScanBuild
+    from bladecad.pipeline.scan_settings import ScanSettings as ScanSettings
+    from bladecad.scans.airfoil import Airfoil as Airfoil
+    from bladecad.scans.airfoil import find_airfoil as find_airfoil
+    from bladecad.scans.slicing import slice_airfoil as slice_airfoil
+    from bladecad.scans.support import Gap as Gap
+    from bladecad.scans.support import find_gaps as find_gaps
+    from bladecad.scans.whole import WholeFit as WholeFit
+    from bladecad.scans.whole import fit_scan as fit_scan
     from bladecad.surface.blade import BladeSurface as BladeSurface
     from bladecad.surface.loft import Loft as Loft
     from bladecad.surface.loft import loft as loft
@@ -73,6 +85,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
+    "Airfoil",
     "Band",
     "BladeFit",
     "BladeLines",
@@ -87,6 +100,7 @@ __all__ = [
     "ExportError",
     "Feet",
     "FitError",
+    "Gap",
     "GeometryError",
     "Inspection",
     "Loft",
@@ -95,20 +109,27 @@ __all__ = [
     "Order",
     "Registration",
     "Scan",
+    "ScanBuild",
+    "ScanSettings",
     "Section",
     "Sections",
     "Settings",
     "Solid",
     "ToleranceError",
     "Tolerances",
+    "WholeFit",
     "__version__",
     "build",
+    "build_scan",
     "build_solid",
     "check",
     "describe",
     "export_blade",
     "export_check",
+    "find_airfoil",
+    "find_gaps",
     "fit_blade",
+    "fit_scan",
     "inspect",
     "load",
     "load_nominal",
@@ -122,6 +143,7 @@ __all__ = [
     "read_tolerances",
     "register",
     "save",
+    "slice_airfoil",
     "split_sides",
     "synthetic_blade",
     "triangulate",
@@ -175,6 +197,13 @@ _HOMES = {
         "check",
         "load_nominal",
     ),
+    "pipeline.scan": ("build_scan",),
+    "pipeline.scan_build": ("ScanBuild",),
+    "pipeline.scan_settings": ("ScanSettings",),
+    "scans.airfoil": ("Airfoil", "find_airfoil"),
+    "scans.slicing": ("slice_airfoil",),
+    "scans.support": ("Gap", "find_gaps"),
+    "scans.whole": ("WholeFit", "fit_scan"),
     "surface.blade": ("BladeSurface",),
     "surface.loft": ("Loft", "loft"),
     "surface.triangulate": ("BladeMesh", "triangulate"),

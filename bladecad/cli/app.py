@@ -13,6 +13,7 @@ from bladecad.cli.convert import convert
 from bladecad.cli.fit import fit
 from bladecad.cli.info import info
 from bladecad.cli.paper import paper
+from bladecad.cli.sections import sections
 
 CODES = "Exit codes: 0 done, within tolerance; 1 out of tolerance; 2 refused, nothing written."
 
@@ -46,5 +47,5 @@ def common(
     """Measured compressor blades to certified CAD."""
 
 
-for command in (build, check, fit, info, convert, paper):
+for command in (build, sections, check, fit, info, convert, paper):
     app.command(epilog=CODES)(command)

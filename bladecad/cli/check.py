@@ -23,22 +23,10 @@ def parse_tolerance(text: str) -> Any:
         return Path(text)
 
 
-def parse_numbers(text: str) -> Any:
-    """Turn "0.1,0.5,0.9" into numbers."""
-    try:
-        return tuple(float(word) for word in text.split(","))
-    except ValueError as error:
-        raise typer.BadParameter(f'"{text}" should be numbers, such as 0.1,0.5,0.9') from error
-
-
 def parse_axis(text: str) -> Any:
     """Turn "x" or "1,0,0.1" into a direction."""
-    if text in ("x", "y", "z"):
-        return tuple(float(text == name) for name in "xyz")
-    direction = parse_numbers(text)
-    if len(direction) != 3 or not any(direction):
-        raise typer.BadParameter(f'"{text}" should be x, y, z or a direction such as 1,0,0.1')
-    return direction
+    found = ask.parse_direction(text)
+    return tuple(float(found == name) for name in "xyz") if isinstance(found, str) else found
 
 
 def parse_locked(text: str) -> Any:
@@ -89,7 +77,7 @@ SpanAxis = Annotated[
 ]  # fmt: skip
 Stations = Annotated[
     Any,
-    typer.Option("--stations", parser=parse_numbers, metavar="u,u,...", show_default=False,
+    typer.Option("--stations", parser=ask.parse_numbers, metavar="u,u,...", show_default=False,
                  help="Span of the sections in the report, 0 .. 1; else those of NOMINAL.",
                  rich_help_panel=ask.OUT),
 ]  # fmt: skip

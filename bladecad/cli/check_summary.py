@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Final
 
 import typer
 
-from bladecad.cli.summary import WIDTH, um
+from bladecad.cli.summary import WIDTH
+from bladecad.cli.words import um
 from bladecad.export.worst_place import worst_place
 
 if TYPE_CHECKING:

@@ -6,8 +6,9 @@ test compares them.
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, Literal, TypeAlias, get_args
 
 import typer
 
@@ -23,6 +24,7 @@ FitChoice: TypeAlias = Literal["best", "none"]
 
 PAIRS, DEGREES = range(1, 13), range(3, 41)
 READ, FIT, OUT = "How the file is read", "How the blade is fitted", "What is written"
+SCAN = "Scans alone"
 
 
 def parse_order(text: str) -> Any:
@@ -39,6 +41,35 @@ def parse_order(text: str) -> Any:
     from bladecad.fit.blade import Order
 
     return Order(le, te, degree)
+
+
+def parse_numbers(text: str) -> Any:
+    """Turn "0.1,0.5,0.9" into numbers."""
+    try:
+        return tuple(float(word) for word in text.split(","))
+    except ValueError as error:
+        raise typer.BadParameter(f'"{text}" should be numbers, such as 0.1,0.5,0.9') from error
+
+
+def parse_direction(text: str) -> Any:
+    """Keep "x", "y" and "z", and turn "1,0,0.1" into a direction."""
+    if text in get_args(AxisChoice):
+        return text
+    direction = parse_numbers(text)
+    if len(direction) != 3 or not any(direction) or not all(map(math.isfinite, direction)):
+        raise typer.BadParameter(f'"{text}" should be x, y, z or a direction such as 1,0,0.1')
+    return direction
+
+
+def parse_span(text: str) -> Any:
+    """Turn "121.5:148.9" into two heights."""
+    try:
+        low, high = (float(word) for word in text.split(":"))
+    except ValueError as error:
+        raise typer.BadParameter(f'"{text}" should be two heights, such as 12.5:80') from error
+    if not low < high or not math.isfinite(high - low):
+        raise typer.BadParameter(f'"{text}": the lower height comes first')
+    return low, high
 
 
 def check_name(name: str | None) -> str | None:
@@ -98,6 +129,49 @@ Axis = Annotated[
     AxisChoice | None,
     typer.Option(help="Machine axis; else as the file says, else z.", show_default=False,
                  rich_help_panel=READ),
+]  # fmt: skip
+AnyAxis = Annotated[
+    Any,
+    typer.Option("--axis", parser=parse_direction, metavar="x|y|z|a,b,c", show_default=False,
+                 help="Machine axis of sections; else as the file says, else z. Of a scan the "
+                 "stacking axis, hub to tip; else found.", rich_help_panel=READ),
+]  # fmt: skip
+ScanAxis = Annotated[
+    Any,
+    typer.Option("--axis", parser=parse_direction, metavar="x|y|z|a,b,c", show_default=False,
+                 help="Stacking axis, hub to tip; else found.", rich_help_panel=READ),
+]  # fmt: skip
+Span = Annotated[
+    Any,
+    typer.Option("--span", parser=parse_span, metavar="a:b", show_default=False,
+                 help="Heights along the axis between which it is airfoil, mm; else found.",
+                 rich_help_panel=SCAN),
+]  # fmt: skip
+About = Annotated[
+    Any,
+    typer.Option("--about", parser=parse_direction, metavar="x|y|z|a,b,c", show_default=False,
+                 help="Machine axis through the origin: cut by cylinders about it, not by planes.",
+                 rich_help_panel=SCAN),
+]  # fmt: skip
+Cone = Annotated[
+    float | None,
+    typer.Option("--cone", metavar="DEG", show_default=False,
+                 help="Half angle of cones about that axis instead.", rich_help_panel=SCAN),
+]  # fmt: skip
+Stations = Annotated[
+    int | None,
+    typer.Option("--stations", metavar="N", show_default=False,
+                 help="How many sections a scan is cut into; else 21.", rich_help_panel=SCAN),
+]  # fmt: skip
+Align = Annotated[
+    bool,
+    typer.Option("--align", help="Write files in the frame of the blade, not of the scan.",
+                 rich_help_panel=SCAN),
+]  # fmt: skip
+Partial = Annotated[
+    bool,
+    typer.Option("--allow-partial", help="Take a scan that is not closed around.",
+                 rich_help_panel=SCAN),
 ]  # fmt: skip
 Lead = Annotated[
     LeadChoice | None,

@@ -8,6 +8,9 @@ from typing import Any
 
 import typer
 
+from bladecad.cli.scan_summary import fit_rows, scan_rows
+from bladecad.cli.words import um
+
 Report = Mapping[str, Any]
 WIDTH = 11
 
@@ -47,19 +50,10 @@ def verdict(report: Report) -> str:
     return typer.style("out of tolerance: ", fg="red", bold=True) + reasons
 
 
-def um(mm: float) -> str:
-    """Return a length in um, three digits."""
-    return f"{1e3 * mm:.3g} um"
-
-
 def _rows(report: Report) -> Iterator[tuple[str, str]]:
-    read = report["input"]
-    points = sum(section["points"] for section in read["sections"])
-    yield (
-        "blade",
-        f"{report['name']}: {len(read['sections'])} sections, {points} points, {read['format']}",
-    )
-    yield from _fit_rows(report["fit"])
+    yield from scan_rows(report) if "scan" in report else _blade_rows(report)
+    yield from _order_rows(report["fit"])
+    yield from fit_rows(report) if "scan" in report else _fit_rows(report["fit"])
     if "solid" in report:
         yield from _surface_rows(report)
         yield from _solid_rows(report)
@@ -67,14 +61,27 @@ def _rows(report: Report) -> Iterator[tuple[str, str]]:
         yield "" if i else "files", f"{file['file']} ({_size(file['bytes'])})"
 
 
-def _fit_rows(fit: Report) -> Iterator[tuple[str, str]]:
-    order, worst = fit["order"], fit["worst"]
+def _blade_rows(report: Report) -> Iterator[tuple[str, str]]:
+    read = report["input"]
+    points = sum(section["points"] for section in read["sections"])
+    yield (
+        "blade",
+        f"{report['name']}: {len(read['sections'])} sections, {points} points, {read['format']}",
+    )
+
+
+def _order_rows(fit: Report) -> Iterator[tuple[str, str]]:
+    order = fit["order"]
     if order:
         restarts = f", {order['knots']} knots" if order["knots"] else ""
         pairs = f"{order['le']} LE pairs, {order['te']} TE pairs, core degree {order['degree']}"
         yield "order", f"{fit['model']}: {pairs}{restarts}"
     else:
         yield "model", fit["model"]
+
+
+def _fit_rows(fit: Report) -> Iterator[tuple[str, str]]:
+    worst = fit["worst"]
     yield (
         "fit",
         f"max {um(fit['max_mm'])}, rms {um(fit['rms_mm'])}, "

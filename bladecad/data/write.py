@@ -36,8 +36,13 @@ def write_sections(sections: Sections, path: str | PathLike[str]) -> None:
         If the suffix is unknown, the file cannot be written, or the format needs sides that are
         not named.
     """
+    check_suffix(path)
+    WRITERS[Path(path).suffix.lower()](sections, Path(path))
+
+
+def check_suffix(path: str | PathLike[str]) -> None:
+    """Raise ExportError unless sections can be written in the format of a suffix."""
     suffix = Path(path).suffix.lower()
     if suffix not in WRITERS:
         known = ", ".join(WRITERS)
         raise ExportError(f'{path}: sections are not written as "{suffix}"; choose one of {known}')
-    WRITERS[suffix](sections, Path(path))

@@ -79,7 +79,7 @@ class Deviation:
             "trailing edge": self.t > 1.0 - EDGE_ZONE,
         }
         groups |= {f'section "{n}"': self.section == i for i, n in enumerate(self.names)}
-        return [_row(name, self.distance[g & ~self.set_aside]) for name, g in groups.items()]
+        return [row(name, self.distance[g & ~self.set_aside]) for name, g in groups.items()]
 
 
 def measure(
@@ -122,7 +122,8 @@ def measure(
     )
 
 
-def _row(name: str, d: Vector) -> Row:
+def row(name: str, d: Vector) -> Row:
+    """Say how large deviations are, d (k,) in mm."""
     if not len(d):
         return Row(name, 0, 0.0, 0.0, 0.0, 0.0)
     size = np.abs(d)

@@ -45,7 +45,8 @@ def export_blade(
     Returns
     -------
     dict
-        "step", "stl", "model", "picture" and "report", to their paths.
+        "step", "stl", "model", "picture" and "report", and "scan" for its picture where the blade
+        came from one, to their paths.
 
     Raises
     ------
@@ -63,6 +64,7 @@ def export_blade(
             "model": stage / f"{name}.json",
             "picture": stage / "overview.png",
         }
+        files |= {"scan": stage / "scan.png"} if product.scanned else {}
         checks = _write(product, files, name)
         write_json(
             report(product, name=name, checks=checks, files=files), stage / REPORT, digits=DIGITS
@@ -111,4 +113,8 @@ def _write(product: Product, files: Mapping[str, Path], name: str) -> Checks:
     stl = write_stl(product.mesh, files["stl"])
     save(product.surface, files["model"], provenance=provenance(product.sections, product.fit))
     draw_overview(product, files["picture"], name=name)
+    if product.scanned:
+        from bladecad.export.scan_picture import draw_scan
+
+        draw_scan(product.scanned, files["scan"], name=name)
     return Checks(agreement, stl)

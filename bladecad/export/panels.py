@@ -12,6 +12,7 @@ from bladecad.arrays import Array, Points
 from bladecad.curves.develop import develop
 from bladecad.export.product import Product, between_sections
 from bladecad.export.scene import render
+from bladecad.export.section_points import section_points
 from bladecad.export.view import view_of
 from bladecad.surface.blade import SideName
 from bladecad.surface.loft import SIDES, graded
@@ -137,7 +138,7 @@ def on_the_chord(product: Product, i: int) -> tuple[Points, dict[SideName, Array
     The leading edge is the origin, the chord the first axis, and the suction side above.
     """
     surface, u = product.surface, product.lines.span[i : i + 1]
-    measured = product.sections.sections[i].points
+    measured = section_points(product, i)
     curves = [surface(s, u, T)[0] for s in SIDES]
     flat = develop(np.concatenate([measured, *curves]), product.sections.axis).points
     points, suction, pressure = np.split(flat, [len(measured), len(measured) + len(T)])
@@ -168,10 +169,11 @@ def draw_errors(axes: Axes, product: Product) -> None:
     axes.axhline(tolerance, color=RED, lw=1.2)
     axes.annotate(f"tolerance {tolerance:.3g} µm", (0.0, tolerance), (2, 2), color=RED, fontsize=8,
                   textcoords="offset points", va="bottom")  # fmt: skip
-    _error_axes(axes, tolerance)
+    error_axes(axes, tolerance, "error per section: the fit, and the surface between sections")
 
 
-def _error_axes(axes: Axes, tolerance: float) -> None:
+def error_axes(axes: Axes, tolerance: float, title: str) -> None:
+    """Let distances be read on a logarithmic scale, the legend below."""
     axes.set_yscale("log")
     low, high = axes.get_ylim()
     axes.set_ylim(min(low, tolerance / 15.0), max(high, 4.0 * tolerance))
@@ -179,7 +181,7 @@ def _error_axes(axes: Axes, tolerance: float) -> None:
     axes.yaxis.set_minor_formatter(NullFormatter())
     axes.set_xlabel("span u of the sections, hub 0, tip 1", labelpad=1)
     axes.set_ylabel("distance, µm", labelpad=6)
-    axes.set_title("error per section: the fit, and the surface between sections", loc="left")
+    axes.set_title(title, loc="left")
     axes.grid(axis="y", lw=0.4, color="#d8dce1")
     handles, labels = axes.get_legend_handles_labels()
     axes.legend(

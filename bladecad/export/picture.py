@@ -23,6 +23,7 @@ from bladecad.export.panels import (
 )
 from bladecad.export.product import Product
 from bladecad.export.report_solid import brep_distance
+from bladecad.export.scan_panels import draw_bands
 
 DPI: Final = 150
 GREEN: Final = "#2e7d32"
@@ -65,40 +66,62 @@ def draw_overview(product: Product, path: str | os.PathLike[str], *, name: str) 
         draw_sections(figure.add_axes((0.56, 0.66, 0.42, 0.21)), product)
         draw_edge(figure.add_axes((0.56, 0.42, 0.19, 0.15)), product, worst, 0)
         draw_edge(figure.add_axes((0.79, 0.42, 0.19, 0.15)), product, worst, 1)
-        draw_errors(figure.add_axes((0.56, 0.155, 0.42, 0.18)), product)
+        below = figure.add_axes((0.56, 0.155, 0.42, 0.18))
+        if product.scanned is None:
+            draw_errors(below, product)
+        else:
+            draw_bands(below, product, product.scanned)
         _footing(figure, product)
-        _save(figure, Path(path))
+        save_figure(figure, Path(path))
 
 
 def _heading(figure: Figure, product: Product, name: str) -> None:
     figure.text(0.02, 0.945, name, fontsize=16, weight="bold", va="center")
-    points = sum(len(section.points) for section in product.sections.sections)
-    figure.text(
-        0.02,
-        0.905,
-        f"{len(product.lines.names)} sections, {points} points",
-        color=GREY,
-        va="center",
-    )
+    figure.text(0.02, 0.905, _read(product), color=GREY, va="center")
     word, colour = ("WITHIN TOLERANCE", GREEN) if product.within else ("OUT OF TOLERANCE", RED)
     figure.text(
         0.985, 0.945, word, fontsize=13, weight="bold", va="center", ha="right", color=colour
     )
 
 
+def _read(product: Product) -> str:
+    """What the blade was built from."""
+    if product.scanned is None:
+        points = sum(len(section.points) for section in product.sections.sections)
+        return f"{len(product.lines.names)} sections, {points} points"
+    taken = product.scanned.airfoil.taken
+    return f"scan of {len(taken)} points, {taken.sum()} of the airfoil"
+
+
+def _how_close(product: Product) -> list[str]:
+    """How far the surface is from what was measured."""
+    fit, um = product.fit, 1e3
+    if product.scanned is None:
+        return [
+            f"fit {um * fit.errors.largest:.3g} µm of {um * fit.tolerance:.3g} µm",
+            f"measured points {um * product.deviation.largest:.3g} µm",
+        ]
+    largest = um * product.scanned.systematic.largest
+    return [
+        f"mean of places {largest:.2g} µm at most, of {um * fit.tolerance:.3g} µm",
+        f"noise {um * product.noise:.2g} µm",
+        f"p99 of all points {um * product.deviation.table()[0].p99:.3g} µm",
+    ]
+
+
 def _footing(figure: Figure, product: Product) -> None:
     fit, um = product.fit, 1e3
     facts = [
         str(fit.order or fit.model),
-        f"fit {um * fit.errors.largest:.3g} µm of {um * fit.tolerance:.3g} µm",
-        f"measured points {um * product.deviation.largest:.3g} µm",
+        *_how_close(product),
         f"solid to surface {um * brep_distance(product):.2g} µm",
         f"{product.mesh.chord_error * um:.2g} µm triangles",
     ]
     figure.text(0.02, 0.028, "   ·   ".join(facts), color=GREY, va="center")
 
 
-def _save(figure: Figure, path: Path) -> None:
+def save_figure(figure: Figure, path: Path) -> None:
+    """Write a figure as PNG, beside first and then renamed."""
     FigureCanvasAgg(figure)
     beside = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:

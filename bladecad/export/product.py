@@ -1,4 +1,4 @@
-"""What a finished blade brings to its files; `bladecad.pipeline.Build` is one."""
+"""What a finished blade brings to its files: a `pipeline.Build`, or a `ScanBuild`."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ from bladecad.surface.triangulate import BladeMesh
 
 if TYPE_CHECKING:
     from bladecad.brep.solid import Solid
+    from bladecad.scans.scanned import Scanned
 
 
 class Asked(Protocol):
@@ -97,6 +98,10 @@ class Product(Protocol):
     @property
     def seconds(self) -> Mapping[str, float]:
         """Wall time of each step."""
+
+    @property
+    def scanned(self) -> Scanned | None:
+        """What is known besides of a blade that came from a scan."""
 
     @property
     def reasons(self) -> tuple[str, ...]:

@@ -15,9 +15,10 @@ import numpy as np
 
 from bladecad.curves.outliers import Misprint
 from bladecad.data.sections import Sections
-from bladecad.deviation.measure import Deviation, Row
+from bladecad.deviation.measure import Deviation
 from bladecad.export.product import Asked, Product, between_sections
 from bladecad.export.report_fit import eigenvalues, fit_numbers
+from bladecad.export.report_rows import row_numbers
 from bladecad.export.report_solid import mesh_numbers, solid_numbers
 from bladecad.export.stl import StlFile
 from bladecad.fit.blade import BladeFit
@@ -66,6 +67,7 @@ def report(product: Product, *, name: str, checks: Checks, files: Mapping[str, P
         "solid": solid_numbers(product, checks.step),
         "mesh": mesh_numbers(product, checks.stl),
         "deviation": _deviation(product.deviation),
+        **_scan(product),
         "files": [file_entry(kind, path) for kind, path in files.items()],
         **_tail(product.seconds),
     }
@@ -115,7 +117,8 @@ def input_numbers(sections: Sections, notes: tuple[str, ...]) -> Report:
 
 def sha256(path: Path) -> str:
     """Return the SHA-256 of a file, as `sha256sum` prints it."""
-    return hashlib.sha256(path.read_bytes()).hexdigest()
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def _head(name: str, within: bool, settings: Any, reasons: tuple[str, ...]) -> Report:
@@ -176,6 +179,14 @@ def _surface(product: Product) -> Report:
     }
 
 
+def _scan(product: Product) -> Report:
+    if product.scanned is None:
+        return {}
+    from bladecad.export.report_scan import scan_numbers
+
+    return {"scan": scan_numbers(product.scanned)}
+
+
 def _deviation(deviation: Deviation) -> Report:
     section, point = deviation.worst()
     return {
@@ -183,24 +194,13 @@ def _deviation(deviation: Deviation) -> Report:
         "largest_mm": deviation.largest,
         "worst": {"section": section, "point": point + 1},
         "set_aside": int(deviation.set_aside.sum()),
-        "table": [_row(row) for row in deviation.table()],
+        "table": [row_numbers(row) for row in deviation.table()],
         "referee": {
             "by": "trimesh.proximity",
             "points": deviation.referee.count,
             "disagreement_mm": deviation.referee.disagreement,
             "bound_mm": deviation.referee.bound,
         },
-    }
-
-
-def _row(row: Row) -> Report:
-    return {
-        "of": row.name,
-        "points": row.points,
-        "max_mm": row.largest,
-        "p99_mm": row.p99,
-        "rms_mm": row.rms,
-        "mean_mm": row.mean,
     }
 
 

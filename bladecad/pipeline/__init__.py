@@ -1,6 +1,7 @@
 """The steps of the method, one line each.
 
 build   sections in, a measured solid out
+scan.build_scan   a scan in, a measured solid out
 check   a nominal blade and a scan in, a verdict out
 """
 

@@ -109,6 +109,11 @@ class Build:
     seconds: dict[str, float] = field(default_factory=dict)
 
     @property
+    def scanned(self) -> None:
+        """Nothing: the blade came from sections."""
+        return
+
+    @property
     def reasons(self) -> tuple[str, ...]:
         """Why the blade is out of tolerance, one sentence each."""
         asked, largest = self.settings.tolerance, self.deviation.largest

@@ -25,7 +25,7 @@ from bladecad.fit.blade import ModelName, Order, SpectrumKind
 from bladecad.surface.blade import Law
 from tests.export.products import FIXTURES, GOOD
 
-COMMANDS = ("build", "check", "fit", "info", "convert", "paper")
+COMMANDS = ("build", "sections", "check", "fit", "info", "convert", "paper")
 CHOICES = [
     (options.ModelChoice, ModelName),
     (options.SpectrumChoice, SpectrumKind),
