@@ -39,7 +39,7 @@ class SideFit:
     def __call__(self, t: Vector, order: int = 0) -> Array:
         """Points, or derivatives, of every section at the same t, (m, len(t), 3)."""
         if len(self.bases) == 1:
-            return np.asarray(np.einsum("tn,mnx->mtx", self.bases[0](t, order), self.coefficients))
+            return np.asarray(self.bases[0](t, order) @ self.coefficients)  # tn,mnx->mtx
         pairs = zip(self.bases, self.coefficients, strict=True)
         return np.array([basis(t, order) @ C for basis, C in pairs])
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from itertools import product
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -12,7 +14,8 @@ from bladecad.deviation.feet import Feet
 from bladecad.deviation.nominal import nominal_of
 from bladecad.deviation.project import project
 from bladecad.scans.freedom import Freedom, local_poles, moved
-from bladecad.scans.neighbours import of_the_airfoil
+from bladecad.scans.local import ORDER
+from bladecad.scans.neighbours import Scatter, of_the_airfoil, scatter
 from bladecad.scans.normal import Normal, accumulate
 from bladecad.scans.prior import Roughness
 from bladecad.scans.robust import weights
@@ -21,6 +24,7 @@ from bladecad.surface.blade import BladeSurface, normals
 from bladecad.surface.loft import SIDES, graded
 
 PROBES: Final = (41, 101)  # places in u and t at which a move is measured
+TOLD_BY: Final = 300_000  # points that tell what is left
 
 
 class Step(NamedTuple):
@@ -30,12 +34,14 @@ class Step(NamedTuple):
     feet    : of the points on the surface before it
     weight  : (k,) float; what each of them counted
     motion  : rms move of the surface along its normal, mm
+    scatter : what is left after it, to first order, told by some of the points
     """
 
     surface: BladeSurface
     feet: Feet
     weight: Vector
     motion: float
+    scatter: Scatter
 
 
 def descend(
@@ -76,7 +82,9 @@ def descend(
     with threadpool_limits(2):
         y = best_move(free, (sums[0], sums[1]), prior, local_poles(surface, free))
     after = moved(surface, free, y)
-    return Step(after, feet, weight, _motion(surface, after))
+    some = np.arange(0, len(points), max(len(points) // TOLD_BY, 1))
+    left = _left(free, y, feet[some])
+    return Step(after, feet, weight, _motion(surface, after), scatter(left, weight[some] > 0))
 
 
 def standing(surface: BladeSurface, points: Points, floor: float) -> tuple[Feet, Vector]:
@@ -95,6 +103,25 @@ def _products(a: Array) -> Array:
 def _sums(free: Freedom, feet: Feet, M: Array, f: Array, which: Mask) -> Normal:
     k = np.flatnonzero(which)
     return accumulate(free.in_u, free.in_t, feet.u[k], feet.t[k], M[k], f[k])
+
+
+def _left(free: Freedom, y: Array, feet: Feet) -> Feet:
+    """The same feet, their distances less the move of the surface along its normal."""
+    n, distance = feet.normal @ free.axes.T, np.array(feet.distance)
+    for local, side in zip(free.local, (feet.suction, ~feet.suction), strict=True):
+        poles = np.einsum("kaf,lf->kla", y, local)
+        k = np.flatnonzero(side)
+        distance[k] -= np.einsum("ka,ka->k", _at(free, poles, feet.u[k], feet.t[k]), n[k])
+    return replace(feet, distance=distance)
+
+
+def _at(free: Freedom, poles: Array, u: Vector, t: Vector) -> Array:
+    """The move at places (u_k, t_k), (k, 2), mm."""
+    (i, B), (j, M) = free.in_u.four(u), free.in_t.four(t)
+    found = np.zeros((len(u), 2))
+    for a, b in product(range(ORDER), range(ORDER)):
+        found += (B[:, a] * M[:, b])[:, None] * poles[i + a, j + b]
+    return found
 
 
 def _motion(before: BladeSurface, after: BladeSurface) -> float:

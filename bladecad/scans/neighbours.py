@@ -14,6 +14,8 @@ from bladecad.scans.robust import MAD
 
 STRIPS: Final = 0.7  # of the usual spacing of points: width of the strips that are walked along
 ZONES: Final = (0.02, 0.98)  # t between which is the body, beside the edges
+EXACT: Final = 1e-9  # mm, of distances
+CHANCE: Final = 2.0  # standard errors
 FEWEST: Final = 400  # pairs that tell a correlation
 
 
@@ -24,7 +26,8 @@ class Scatter:
 
     noise       : sigma, mm, from differences of neighbours, which the surface cancels from
     excess      : rms of the residuals over the noise; 1 where nothing but noise is left
-    correlation : of neighbouring residuals, the largest of body, leading and trailing edge
+    correlation : of neighbouring residuals, the largest of body, leading and trailing edge, less
+                  what may be chance
     """
 
     noise: float
@@ -46,11 +49,11 @@ def scatter(feet: Feet, counts: Mask) -> Scatter:
     """
     first, second = pairs(feet, np.flatnonzero(counts))
     r = feet.distance
-    noise = MAD * float(np.median(np.abs(r[first] - r[second]))) / np.sqrt(2.0)
+    noise = float(MAD * np.median(np.abs(r[first] - r[second])) / np.sqrt(2.0))
     rms = float(np.sqrt(np.mean(r[counts] ** 2)))
     zone = np.searchsorted(ZONES, feet.t[first])
     found = [_correlation(r[first[zone == z]], r[second[zone == z]]) for z in range(3)]
-    return Scatter(noise, rms / max(noise, 1e-9), max(found))
+    return Scatter(noise, rms / max(noise, EXACT), max(found))
 
 
 def pairs(feet: Feet, which: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -69,7 +72,8 @@ def pairs(feet: Feet, which: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArra
 def _correlation(a: Vector, b: Vector) -> float:
     if len(a) < FEWEST or not np.any(a):
         return 0.0
-    return float(2.0 * np.mean(a * b) / (np.mean(a * a) + np.mean(b * b)))
+    found = float(2.0 * np.mean(a * b) / (np.mean(a * a) + np.mean(b * b)))
+    return found - float(CHANCE / np.sqrt(len(a)))
 
 
 def of_the_airfoil(feet: Feet) -> Mask:

@@ -11,12 +11,12 @@ import numpy as np
 from bladecad.arrays import Points, Vector
 from bladecad.curves.sides import BladeLines
 from bladecad.errors import DataError
-from bladecad.scans.descent import descend, standing
+from bladecad.scans.descent import descend
 from bladecad.scans.freedom import Freedom, freedom
 from bladecad.scans.knots import breaks_along
 from bladecad.scans.laid_on import laid_on, through
 from bladecad.scans.local import Splines
-from bladecad.scans.neighbours import Scatter, scatter
+from bladecad.scans.neighbours import Scatter
 from bladecad.scans.prior import roughness
 from bladecad.surface.blade import BladeSurface
 
@@ -24,7 +24,6 @@ log = logging.getLogger(__name__)
 Progress = Callable[[str], None]
 
 LADDER: Final = ((11, 0.36), (15, 0.30), (21, 0.25), (29, 0.21), (41, 0.18))  # stations, rad a span
-UNRELATED: Final = 0.02  # correlation of neighbouring residuals: nothing but noise is left
 LESS: Final = 0.7  # of the correlation; a rung that leaves more is not taken
 EACH: Final = 6  # points a span at least
 FEW: Final = 60_000  # points of the first passes
@@ -53,15 +52,15 @@ class Smooth(NamedTuple):
     def criterion(self) -> str:
         """Why it has these spans, in a sentence."""
         size = f"{len(self.surface.span) - 1} spans along it, {2 * len(self.breaks) - 2} round it"
-        left = f"correlation {self.scatter.correlation:.3f}"
-        if self.scatter.correlation < UNRELATED:
+        if self.scatter.correlation <= 0.0:
             return (
-                f"{size}: neighbouring residuals are unrelated ({left} < {UNRELATED}); what is "
-                "left is noise"
+                f"{size}: neighbouring residuals are unrelated, two standard errors of their "
+                "correlation hold zero; what is left is noise"
             )
         return (
-            f"{size}: neighbouring residuals stay related ({left}), and more spans do not change "
-            f"that, or would have fewer than {EACH} points each"
+            f"{size}: neighbouring residuals stay related (correlation at least "
+            f"{self.scatter.correlation:.3f}), and more spans do not change that, or would have "
+            f"fewer than {EACH} points each"
         )
 
 
@@ -78,7 +77,7 @@ def smooth_surface(
     best = _first(points, through(start), axis, progress)
     for stations, turn in LADDER[1:]:
         breaks = breaks_along(best.surface, turn)
-        if best.scatter.correlation < UNRELATED or len(points) < _needed(stations, breaks):
+        if best.scatter.correlation <= 0.0 or len(points) < _needed(stations, breaks):
             break
         finer = _finer(points, best, stations, breaks, axis, progress)
         if finer.scatter.correlation > LESS * best.scatter.correlation:
@@ -99,10 +98,11 @@ def _first(points: Points, surface: BladeSurface, axis: Vector, progress: Progre
     surface, free = _written(surface, stations, breaks, axis, progress)
     few, prior = points[:: max(len(points) // FEW, 1)], roughness(surface, free, FAR)
     for _ in range(FIRST_PASSES):
-        surface = descend(surface, free, few, prior, FAR, DAMPING).surface
-    prior = roughness(surface, free, _left(surface, few).noise)
-    surface = descend(surface, free, points, prior, FLOOR, DAMPING).surface
-    return _told(Smooth(surface, breaks, _left(surface, points), 1))
+        step = descend(surface, free, few, prior, FAR, DAMPING)
+        surface = step.surface
+    prior = roughness(surface, free, step.scatter.noise)
+    step = descend(surface, free, points, prior, FLOOR, DAMPING)
+    return _told(Smooth(step.surface, breaks, step.scatter, 1))
 
 
 def _finer(
@@ -111,8 +111,8 @@ def _finer(
     """The next rung, from where the last one stands."""
     surface, free = _written(last.surface, stations, breaks, axis, progress)
     prior = roughness(surface, free, last.scatter.noise)
-    surface = descend(surface, free, points, prior, FLOOR, DAMPING).surface
-    return _told(Smooth(surface, breaks, _left(surface, points), last.passes + 1))
+    step = descend(surface, free, points, prior, FLOOR, DAMPING)
+    return _told(Smooth(step.surface, breaks, step.scatter, last.passes + 1))
 
 
 def stiffened(points: Points, last: Smooth, factor: float, axis: Vector) -> Smooth:
@@ -121,8 +121,9 @@ def stiffened(points: Points, last: Smooth, factor: float, axis: Vector) -> Smoo
     free, surface = freedom(last.surface, basis, axis), last.surface
     prior = roughness(surface, free, last.scatter.noise).times(factor)
     for _ in range(STIFF_PASSES):
-        surface = descend(surface, free, points, prior, FLOOR, DAMPING).surface
-    return _told(Smooth(surface, last.breaks, _left(surface, points), last.passes + STIFF_PASSES))
+        step = descend(surface, free, points, prior, FLOOR, DAMPING)
+        surface = step.surface
+    return _told(Smooth(surface, last.breaks, step.scatter, last.passes + STIFF_PASSES))
 
 
 def _written(
@@ -132,11 +133,6 @@ def _written(
     basis = Splines.on(breaks)
     written = laid_on(surface, (basis, basis), np.linspace(0.0, 1.0, stations))
     return written, freedom(written, basis, axis)
-
-
-def _left(surface: BladeSurface, points: Points) -> Scatter:
-    feet, weight = standing(surface, points, FLOOR)
-    return scatter(feet, weight > 0)
 
 
 def _told(found: Smooth) -> Smooth:

@@ -10,13 +10,15 @@ from typing import Final, final
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from bladecad.arrays import Points, Vector, seal
+from bladecad.arrays import Lines, Points, Vector, seal
 from bladecad.curves.repair import repaired
 from bladecad.curves.sides import BladeLines, split_sides
 from bladecad.deviation.feet import Feet
+from bladecad.deviation.nominal import Nominal, nominal_of
+from bladecad.deviation.project import project
 from bladecad.errors import DataError, FitError
 from bladecad.fit.blade import BladeFit, Order
-from bladecad.fit.judge import Bench, judge
+from bladecad.fit.judge import SIDES, Bench, Errors, SideErrors, judge
 from bladecad.fit.order import fit_blade
 from bladecad.scans.descent import descend, standing
 from bladecad.scans.freedom import freedom
@@ -27,12 +29,14 @@ from bladecad.scans.neighbours import scatter
 from bladecad.scans.prior import roughness
 from bladecad.scans.spline_surface import DAMPING, FLOOR, Smooth, smooth_surface, stiffened
 from bladecad.surface.blade import BladeSurface
+from bladecad.surface.loft import graded
 
 log = logging.getLogger(__name__)
 Progress = Callable[[str], None]
 FINEST: Final = 0.002  # mm; flows need not follow the smooth surface closer
 SHARE: Final = 0.5  # of the noise, to which the flows follow the smooth surface
 PASSES: Final = 2
+DENSE: Final = 401  # places of a section at which the flows are judged
 STIFFER: Final = (10.0, 100.0, 1000.0)  # times the weight of smoothness
 
 
@@ -162,7 +166,9 @@ def _settled(
     prior = roughness(surface, free, smooth.scatter.noise)
     for k in range(PASSES):
         progress(f"fit the surface, pass {k + 1}")
-        surface = descend(surface, free, points, prior, FLOOR, DAMPING).surface
+        step = descend(surface, free, points, prior, FLOOR, DAMPING)
+        surface = step.surface
+        log.info("moved by %.3g mm rms; %s", step.motion, step.scatter)
     feet, weight = standing(surface, points, FLOOR)
     left = scatter(feet, weight > 0)
     errors = judge(Bench.of(lines), surface.suction, surface.pressure)
@@ -174,3 +180,20 @@ def _settled(
         fit, surface, points, feet, weight, left.noise, left.excess, left.correlation,
         smooth.criterion, smooth.passes + PASSES,
     )  # fmt: skip
+
+
+def _errors(surface: BladeSurface, lines: BladeLines) -> Errors:
+    """Distances of the sections of the smooth surface from S along its normal.
+
+    The move along a section that points do not feel would show at equal parameters.
+    """
+    nominal, t = nominal_of(surface), graded(DENSE)
+    sides = [_of_side(nominal, lines.sample(side, t), t) for side in SIDES]
+    at_equal = judge(Bench.of(lines), surface.suction, surface.pressure)
+    return replace(at_equal, suction=sides[0], pressure=sides[1])
+
+
+def _of_side(nominal: Nominal, points: Lines, t: Vector) -> SideErrors:
+    d = np.abs(project(nominal, points.reshape(-1, 3)).distance).reshape(len(points), -1)
+    rms = np.sqrt(np.mean(d**2, axis=1))
+    return SideErrors(d.max(axis=1), rms, t[d.argmax(axis=1)], d.max(axis=1))

@@ -67,7 +67,7 @@ class BladeSurface:
     def __call__(self, name: SideName, u: Vector, t: Vector, du: int = 0, dt: int = 0) -> Array:
         """S or a partial derivative on the grid u x t, (len(u), len(t), 3), mm."""
         curves = self.side(name)(np.asarray(t, dtype=np.float64), dt)
-        return np.asarray(np.einsum("ui,itx->utx", self.blend(u, du), curves))
+        return np.tensordot(self.blend(u, du), curves, 1)  # ui,itx->utx
 
     def at(self, name: SideName, u: Vector, t: Vector, du: int = 0, dt: int = 0) -> Array:
         """S or a partial derivative at the places (u_k, t_k), (k, 3), mm."""
