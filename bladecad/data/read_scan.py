@@ -15,8 +15,9 @@ from bladecad.data.formats import recognise
 from bladecad.data.read import read_sections
 from bladecad.data.scan import Scan
 from bladecad.data.scan_clean import Triangles, cleaned
-from bladecad.data.scan_mesh import mesh_format, read_mesh
+from bladecad.data.scan_mesh import mesh_format, mesh_unit, read_mesh
 from bladecad.data.scan_text import read_cloud
+from bladecad.data.scan_unit import unit_by_size, unit_note
 from bladecad.data.sections import MM_PER, Source, Unit
 from bladecad.data.table import header_of
 from bladecad.data.text import Text
@@ -37,7 +38,7 @@ def read_scan(path: str | PathLike[str], *, unit: Unit | None = None) -> Scan:
     ----------
     path : path
     unit : {"mm", "cm", "m", "in", "ft"}
-        Wins over what the file says; where neither says, mm.
+        Wins over what the file says; where neither says, mm, or m for what would be below 2 mm.
 
     Raises
     ------
@@ -50,7 +51,8 @@ def read_scan(path: str | PathLike[str], *, unit: Unit | None = None) -> Scan:
     form = mesh_format(path)
     if form:
         points, triangles, dropped = cleaned(*read_mesh(path, form), soup=form == "STL")
-        return _settled(points, triangles, Source(path, form, notes=dropped), None, unit)
+        said = mesh_unit(path, form)
+        return _settled(points, triangles, Source(path, form, notes=dropped), said, unit)
     cloud = read_cloud(path)
     points, _, dropped = cleaned(cloud.points)
     source = Source(path, "points", notes=(*cloud.notes, *dropped))
@@ -70,8 +72,9 @@ def _settled(
         raise DataError(
             f"{source.path.name} holds {len(points)} points that can be used; export the scan again"
         )
-    usual: Unit = "mm"
+    usual, size = unit_by_size(points)
     in_unit, unit_from, notes = choose("unit", "--units", said, unit, usual)
+    notes = (unit_note(usual, size),) if unit_from == "default" else notes
     points = points * MM_PER[in_unit] if in_unit != "mm" else points
     return Scan(
         points, triangles,

@@ -7,13 +7,15 @@ import re
 import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from io import BytesIO
 from itertools import pairwise
 from pathlib import Path
-from typing import Final, final
+from typing import BinaryIO, Final, final
 
 import numpy as np
 
 from bladecad.arrays import Array, Points
+from bladecad.data.scan_unit import unit_said
 from bladecad.data.sections import Unit
 from bladecad.data.table import UNITS
 from bladecad.data.text import fields, has_decimal_commas
@@ -23,7 +25,8 @@ CHUNK: Final = 1 << 24  # bytes read at a time: memory stays with the points the
 SLOW: Final = 1 << 14  # bytes, read word by word where something else than numbers stands in them
 HEAD: Final = 200  # lines looked at to learn how a file is written
 COMMENT: Final = ("#", "//", "!", "%", "*", ";;")
-MISSING: Final = frozenset({"", "nan", "na", "n/a", "null", "none", "-", "inf", "+inf", "-inf"})
+MISSING = re.compile(r"|-|na|n/a|null|none|[-+]?(nan|inf|infinity|1\.#\w+)")
+BRACKET = re.compile(r"\s+([\[(])")  # X [mm]
 NAMED = re.compile(r"(?:points?[_:]?|coords?[_:]?)?([xyz012])(?:[_ \[(]+(\w+)[\])]?)?")
 
 
@@ -35,7 +38,7 @@ class Layout:
     header  : lines before the first row
     columns : positions of x, y and z in a row
     width   : numbers in a row
-    unit    : where the names of the columns say it
+    unit    : where the names of the columns say it, or a line before them
     commas  : whether numbers have decimal commas
     count   : points announced before the first, as in .pts
     """
@@ -94,29 +97,41 @@ def _notes(layout: Layout, passed: int) -> Iterator[str]:
 
 def layout_of(path: Path) -> Layout:
     """Learn from the first lines how the file is written."""
-    with path.open("rb") as file:
+    with _opened(path) as file:
         head = file.read(1 << 16)
     if b"\0" in head:
         raise DataError(
             f"{path.name} is neither text nor a mesh; export the scan as STL, PLY or XYZ"
         )
-    lines = head.decode("utf-8-sig", errors="replace").splitlines()[:HEAD]
-    commas = has_decimal_commas([line for line in lines if re.match(r"\s*[-+.\d]", line)])
+    lines = head.decode("utf-8-sig", errors="replace").replace('"', "").splitlines()[:HEAD]
+    begun = [line for line in lines if re.match(r"\s*[-+.\d]", line)]
+    commas = has_decimal_commas(begun or lines)
     words = [fields(line.replace(",", ".") if commas else line) for line in lines]
+    named = _first_named(lines, words)
     rows = [k for k, row in enumerate(words) if _is_row(row) and not _comment(lines[k])]
-    if not rows:
+    if not rows and not named:
         raise DataError(
             f"{path.name}: no line with three numbers among the first {len(lines)}; a cloud has x, "
             "y, z in every line: export the scan as XYZ, PLY or STL"
         )
-    first = rows[0]
-    width = len(words[first])
-    columns, unit = _named(words[first - 1] if first else [], width)
+    first, columns, unit = named or (rows[0], _unnamed([words[k] for k in rows[:50]]), None)
     counts = [row for row in words[:first] if len(row) == 1 and row[0].isdigit()]
     return Layout(
-        first, columns or _unnamed([words[k] for k in rows[:50]]), width, unit, commas,
+        first, columns, len(words[first]), unit or unit_said(lines[:first]), commas,
         int(counts[-1][0]) if counts else None,
     )  # fmt: skip
+
+
+def _first_named(
+    lines: Sequence[str], words: Sequence[Sequence[str]]
+) -> tuple[int, tuple[int, int, int], Unit | None] | None:
+    """The first row below a header that names x, y and z, their columns, and their unit."""
+    for k, row in enumerate(words[1:], 1):
+        if not _comment(lines[k]):
+            columns, unit = _named(fields(BRACKET.sub(r"\1", lines[k - 1])), len(row))
+            if columns and all(_is_number(row[c]) for c in columns):
+                return k, columns, unit
+    return None
 
 
 def _named(header: Sequence[str], width: int) -> tuple[tuple[int, int, int] | None, Unit | None]:
@@ -125,7 +140,7 @@ def _named(header: Sequence[str], width: int) -> tuple[tuple[int, int, int] | No
     found: dict[str, int] = {}
     units: set[str | None] = set()
     for k, word in enumerate(header):
-        match = NAMED.fullmatch(word.strip("#\"'").lower())
+        match = NAMED.fullmatch(word.strip("#/'").lower())
         if match:
             name = "xyz"["012".index(match[1])] if match[1] in "012" else match[1]
             found.setdefault(name, k)
@@ -145,10 +160,22 @@ def _unnamed(rows: Sequence[Sequence[str]]) -> tuple[int, int, int]:
     return 0, 1, 2
 
 
+def _opened(path: Path) -> BinaryIO:
+    """The file as lines of ASCII; UTF-16 and lone carriage returns are rare, and turned at once."""
+    with path.open("rb") as file:
+        head = file.read(1 << 16)
+    if head.startswith((b"\xff\xfe", b"\xfe\xff")):
+        text = path.read_bytes().decode("utf-16", errors="replace")
+        return BytesIO(text.replace("\r\n", "\n").encode())
+    if b"\r" in head and b"\n" not in head:
+        return BytesIO(path.read_bytes().replace(b"\r", b"\n"))
+    return path.open("rb")
+
+
 def _chunks(path: Path, skip: int) -> Iterator[bytes]:
     """The file without its first lines, in pieces that end with a line."""
     rest = b""
-    with path.open("rb") as file:
+    with _opened(path) as file:
         for _ in range(skip):
             file.readline()
         while block := file.read(CHUNK):
@@ -167,7 +194,7 @@ def _parsed(chunk: bytes, layout: Layout, at: str, line: int) -> tuple[list[Arra
     Whatever is no plain row of numbers is hunted down by halves, and read word by word.
     """
     lines = chunk.count(b"\n")
-    table = bytes.maketrans(b",;\t", b".  ") if layout.commas else bytes.maketrans(b",;\t", b"   ")
+    table = bytes.maketrans(b',;\t"', b".   " if layout.commas else b"    ")
     values = _numbers(chunk.translate(table))
     if values is not None and len(values) == lines * layout.width:
         return [values.reshape(lines, layout.width)[:, layout.columns]], 0
@@ -180,7 +207,7 @@ def _parsed(chunk: bytes, layout: Layout, at: str, line: int) -> tuple[list[Arra
 
 
 def _by_word(chunk: bytes, layout: Layout, at: str, line: int) -> tuple[list[Array], int]:
-    texts = chunk.decode("utf-8", errors="replace").splitlines()
+    texts = chunk.decode("utf-8", errors="replace").replace('"', "").splitlines()
     kept = [k for k, text in enumerate(texts) if text.strip() and not _comment(text)]
     found = [_row(texts[k], layout, f"{at} {line + k + 1}") for k in kept]
     points = np.array([row for row in found if row is not None]).reshape(-1, 3)
@@ -212,7 +239,7 @@ def _row(text: str, layout: Layout, at: str) -> tuple[float, ...] | None:
 
 
 def _value(word: str, at: str) -> float:
-    if word.lower() in MISSING:
+    if MISSING.fullmatch(word.lower()):
         return math.nan
     try:
         return float(word)
