@@ -64,10 +64,11 @@ def _side(side: SideFit, move: Array) -> SideFit:
 
 def _fit(fit: BladeFit, move: Array) -> BladeFit:
     suction, pressure = (_side(side, move) for side in (fit.suction, fit.pressure))
-    return replace(fit, suction=suction, pressure=pressure, lines=_lines(fit.lines, move))
+    return replace(fit, suction=suction, pressure=pressure, lines=moved_lines(fit.lines, move))
 
 
-def _lines(lines: BladeLines, move: Array) -> BladeLines:
+def moved_lines(lines: BladeLines, move: Array) -> BladeLines:
+    """Lines, and what they were found from, moved."""
     suction, pressure = (
         tuple(_track(track, move) for track in side) for side in (lines.suction, lines.pressure)
     )

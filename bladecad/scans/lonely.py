@@ -1,0 +1,97 @@
+"""Points that stand alone: neighbours much further away than theirs are from each other."""
+
+from __future__ import annotations
+
+from itertools import product
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from bladecad.arrays import Mask, Points
+
+CELL: Final = 6.0  # times the usual spacing: thin cover of an edge, a ninth of the usual, holds on
+SAMPLE: Final = 100_000  # points that the spacing is found from
+SMALL: Final = 0.01  # of the points: islands with fewer are no part of the blade
+FEW: Final = 3  # points of a cell that are looked at one by one
+NEIGHBOURS: Final = 4
+FAR: Final = 5.0  # times the distance that is usual about the neighbours
+FINEST: Final = 1_000  # cells over the size, at most
+
+Cells = NDArray[np.int64]
+HALF: Final = [d for d in product((-1, 0, 1), repeat=3) if d > (0, 0, 0)]
+
+
+def spacing(points: Points) -> float:
+    """Usual distance of neighbours on the surface, mm: by how many cells they fill."""
+    some = points[:: max(len(points) // SAMPLE, 1)]
+    size = float(np.linalg.norm(np.ptp(np.quantile(some, (0.01, 0.99), axis=0), axis=0)))
+    edge = size / 50.0
+    keys, _ = _cells(some, edge)
+    return float(edge * np.sqrt(len(np.unique(keys)) / 1.5 / len(points)))
+
+
+def lonely(points: Points) -> Mask:
+    """Find the isolated points of a cloud, (k,).
+
+    Islands of cells that touch no others and hold few points, and single points whose neighbours
+    are five times further away than is usual for these.
+    """
+    size = float(np.linalg.norm(np.ptp(points, axis=0)))
+    edge = max(CELL * spacing(points), size / FINEST)
+    keys, strides = _cells(points, edge)
+    cells, number, count = np.unique(keys, return_inverse=True, return_counts=True)
+    out = (_islands(cells, count, strides) | False)[number]
+    thin = np.flatnonzero((count[number] <= FEW) & ~out)
+    if len(thin):
+        out[thin] = _apart(points, out, keys, cells, strides, thin)
+    return np.asarray(out)
+
+
+def _islands(cells: Cells, count: Cells, strides: Cells) -> Mask:
+    """Cells that belong to islands with few points."""
+    pairs = [(a, b) for a, b in (_beside(cells, strides, d) for d in HALF)]
+    rows, columns = (np.concatenate([p[i] for p in pairs]) for i in (0, 1))
+    graph = coo_matrix((np.ones(len(rows), np.int8), (rows, columns)), shape=(len(cells),) * 2)
+    _, island = connected_components(graph, directed=False)
+    held = np.bincount(island, count)
+    return np.asarray((held < SMALL * count.sum())[island])
+
+
+def _apart(
+    points: Points, out: Mask, keys: Cells, cells: Cells, strides: Cells, thin: Cells
+) -> Mask:
+    """Which of the points in thin cells stand alone."""
+    shifts = np.array([np.dot(d, strides) for d in product((-1, 0, 1), repeat=3)])
+    wanted = np.unique((np.unique(keys[thin])[:, None] + shifts).ravel())
+    wanted = wanted[np.isin(wanted, cells)]
+    near = np.flatnonzero(np.isin(keys, wanted) & ~out)
+    if len(near) <= NEIGHBOURS:
+        return np.ones(len(thin), bool)
+    tree = cKDTree(points[near])
+    own, beside = tree.query(points[thin], NEIGHBOURS + 1)
+    theirs, _ = tree.query(points[near[beside[:, 1:].ravel()]], NEIGHBOURS + 1)
+    usual = np.median(theirs[:, -1].reshape(len(thin), NEIGHBOURS), axis=1)
+    return np.asarray(own[:, -1] > FAR * np.maximum(usual, 1e-12))
+
+
+def _cells(points: Points, edge: float) -> tuple[Cells, Cells]:
+    """Number of the cell of every point, and what a step in x, y, z adds to it."""
+    low = points.min(axis=0) - 1.5 * edge
+    shape = ((points.max(axis=0) - low) / edge).astype(np.int64) + 3
+    strides = np.array([shape[1] * shape[2], shape[2], 1], dtype=np.int64)
+    keys = np.zeros(len(points), np.int64)
+    for i in range(3):
+        keys += ((points[:, i] - low[i]) / edge).astype(np.int64) * strides[i]
+    return keys, strides
+
+
+def _beside(cells: Cells, strides: Cells, step: tuple[int, int, int]) -> tuple[Cells, Cells]:
+    """Numbers of the cells that have a neighbour one step on, and of these."""
+    wanted = cells + np.dot(step, strides)
+    at = np.minimum(np.searchsorted(cells, wanted), len(cells) - 1)
+    found = cells[at] == wanted
+    return np.flatnonzero(found), at[found]

@@ -1,0 +1,128 @@
+"""A periodic line through noisy values: as smooth as the noise asks for, and no smoother."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final, final
+
+import numpy as np
+from scipy.linalg import eigh
+from scipy.sparse import csr_matrix
+
+from bladecad.arrays import Array, Vector, seal
+
+ORDER: Final = 2  # of the differences of coefficients that are kept small
+STILL: Final = 0.1  # and these themselves, against their differences
+HELD: Final = 0.02  # weight of both, as a share of the points
+SLOPES: Final = 16  # functions for the change with the height
+ROUNDS: Final = 4
+CLEAR: Final = 2.5  # times the usual residual: values beyond count little
+GRID: Final = np.logspace(-2.0, 6.0, 33)  # weights of smoothness that are tried
+TENSION: Final = 0.05  # of first against second differences: no overshoot where points are missing
+MAD: Final = 1.4826
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Smooth:
+    """Periodic cubic spline over w in [0, 1), uniform.
+
+    coefficients : (n,) float
+    slope        : (m,) float, of its change with the height
+    noise        : usual distance of the values from it
+    freedom      : how many values it could follow
+    """
+
+    coefficients: Vector
+    slope: Vector
+    noise: float
+    freedom: float
+
+    def __post_init__(self) -> None:
+        seal(self, coefficients=(None,), slope=(None,))
+
+    def __call__(self, w: Vector) -> Vector:
+        """Values at w, (k,)."""
+        return np.asarray(periodic(w, len(self.coefficients)) @ self.coefficients)
+
+
+def smooth(w: Vector, lift: Vector, y: Vector, count: int) -> Smooth:
+    """Fit y = f(w) + lift g(w), f as smooth as generalised cross-validation says, g coarse.
+
+    Parameters
+    ----------
+    w : (k,) float
+        From 0 to 1, periodic.
+    lift : (k,) float
+        Height above the section, about -1 .. 1.
+    y : (k,) float
+    count : int
+        Coefficients of f.
+    """
+    B, C = periodic(w, count), periodic(w, SLOPES)
+    A = _beside(B, C.multiply(lift[:, None]).tocsr())
+    penalty = np.zeros((A.shape[1],) * 2)
+    penalty[:count, :count] = _roughness(count, ORDER) + TENSION * _roughness(count, 1)
+    held = np.zeros_like(penalty)
+    held[count:, count:] = _roughness(SLOPES, 1) + STILL * np.eye(SLOPES)
+    weight = np.ones(len(y))
+    for k in range(ROUNDS):
+        c, freedom = _cross_validated(A, y, weight, penalty, held)
+        off = np.abs(y - A @ c)
+        noise = MAD * float(np.median(off))
+        if k < ROUNDS - 1:
+            weight = 1.0 / (1.0 + (off / max(CLEAR * noise, 1e-12)) ** 2) ** 2
+    return Smooth(c[:count], c[count:], noise, freedom)
+
+
+def periodic(w: Vector, count: int) -> csr_matrix:
+    """Uniform periodic cubic B-splines at w, (k, count), sparse."""
+    place = np.mod(w, 1.0) * count
+    first = np.floor(place).astype(np.int64)
+    s = place - first
+    values = (
+        np.stack(
+            [(1 - s) ** 3, 3 * s**3 - 6 * s**2 + 4, -3 * s**3 + 3 * s**2 + 3 * s + 1, s**3], axis=1
+        )
+        / 6.0
+    )
+    columns = (first[:, None] + np.arange(-1, 3)) % count
+    rows = np.repeat(np.arange(len(w)), 4)
+    return csr_matrix((values.ravel(), (rows, columns.ravel())), shape=(len(w), count))
+
+
+def _cross_validated(
+    A: csr_matrix, y: Vector, weight: Vector, P: Array, held: Array
+) -> tuple[Vector, float]:
+    """Penalised least squares whose weight of smoothness predicts left-out values best."""
+    W = A.multiply(weight[:, None]).tocsr()
+    G, r, yy = (A.T @ W).toarray(), np.asarray(W.T @ y), float(weight @ y**2)
+    scale = np.trace(G) / np.trace(P)
+    G += HELD * len(y) / SLOPES * held
+    G0 = G + 1e-9 * scale * P + 1e-13 * np.trace(G) / len(G) * np.eye(len(G))
+    e, V = eigh(P * scale, G0)
+    b, n = V.T @ r, float(weight.sum())
+    e = np.maximum(e, 0.0)
+    best, chosen, freedom = np.inf, GRID[-1], 0.0
+    for grid in GRID:
+        shrink = 1.0 / (1.0 + grid * e)
+        left = yy - float(np.sum(b**2 * shrink * (2.0 - shrink)))
+        df = float(shrink.sum())
+        score = max(left, 0.0) / max(n - 1.2 * df, 1e-3 * n) ** 2
+        if score < best:
+            best, chosen, freedom = score, grid, df
+    return V @ (b / (1.0 + chosen * e)), freedom
+
+
+def _roughness(count: int, order: int) -> Array:
+    """Sum of the squared differences of periodic coefficients."""
+    D = np.eye(count)
+    for _ in range(order):
+        D = np.roll(D, -1, axis=0) - D
+    return D.T @ D
+
+
+def _beside(A: csr_matrix, B: csr_matrix) -> csr_matrix:
+    from scipy.sparse import hstack
+
+    return csr_matrix(hstack([A, B]))
