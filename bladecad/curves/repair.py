@@ -18,8 +18,10 @@ CLEAR_RISE = 0.5  # of the way between section centres: below it, radius does no
 SAME_PLACE = 1e-4  # of the size of a section: 6 um on 60 mm
 
 
-def repaired(sections: Sections) -> Sections:
+def repaired(sections: Sections, *, ordered: bool = False) -> Sections:
     """Return the sections in order from hub to tip, every repair noted.
+
+    `ordered` says that they are: what was cut from hub to tip need not be told by its radius.
 
     Raises
     ------
@@ -32,10 +34,11 @@ def repaired(sections: Sections) -> Sections:
     for section, flat in zip(sections.sections, flats, strict=True):
         refuse_crossings(section, flat)
         refuse_gaps(section)
-    ordered, order = _in_order(sections)
-    flats = [flats[i] for i in order]
-    refuse_turned(ordered, flats)
-    return ordered.noted(*_running_back(ordered, flats))
+    if not ordered:
+        sections, order = _in_order(sections)
+        flats = [flats[i] for i in order]
+    refuse_turned(sections, flats)
+    return sections.noted(*_running_back(sections, flats))
 
 
 def heights(sections: Sections) -> tuple[Vector, str]:

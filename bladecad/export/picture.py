@@ -66,11 +66,10 @@ def draw_overview(product: Product, path: str | os.PathLike[str], *, name: str) 
         draw_sections(figure.add_axes((0.56, 0.66, 0.42, 0.21)), product)
         draw_edge(figure.add_axes((0.56, 0.42, 0.19, 0.15)), product, worst, 0)
         draw_edge(figure.add_axes((0.79, 0.42, 0.19, 0.15)), product, worst, 1)
-        below = figure.add_axes((0.56, 0.155, 0.42, 0.18))
         if product.scanned is None:
-            draw_errors(below, product)
+            draw_errors(figure.add_axes((0.56, 0.155, 0.42, 0.18)), product)
         else:
-            draw_bands(below, product, product.scanned)
+            draw_bands(figure.add_axes((0.56, 0.155, 0.375, 0.18)), product, product.scanned)
         _footing(figure, product)
         save_figure(figure, Path(path))
 

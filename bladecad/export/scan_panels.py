@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,6 +14,8 @@ from bladecad.surface.loft import SIDES
 
 if TYPE_CHECKING:
     from bladecad.scans.scanned import Scanned
+
+LEAST: Final = 3e-3  # of the tolerance: means below it are as good as none
 
 
 def draw_bands(axes: Axes, product: Product, scanned: Scanned) -> None:
@@ -28,9 +30,11 @@ def draw_bands(axes: Axes, product: Product, scanned: Scanned) -> None:
     noise, tolerance = um * scanned.whole.noise, um * product.settings.tolerance
     axes.axhline(noise, color=GREY, lw=1.0, ls=":", label=f"noise of the scan, {noise:.2g} µm")
     axes.axhline(tolerance, color=RED, lw=1.2)
-    axes.annotate(f"tolerance {tolerance:.3g} µm", (0.0, tolerance), (2, 2), color=RED, fontsize=8,
-                  textcoords="offset points", va="bottom")  # fmt: skip
+    axes.annotate(f"tolerance\n{tolerance:.3g} µm", (1.0, tolerance), (4, 0), color=RED, fontsize=8,
+                  xycoords=axes.get_yaxis_transform(), textcoords="offset points",
+                  va="center", annotation_clip=False)  # fmt: skip
     error_axes(axes, tolerance, "deviations of the points around each section")
+    axes.set_ylim(bottom=max(axes.get_ylim()[0], LEAST * tolerance))
 
 
 def _of_bands(product: Product, which: Mask) -> tuple[Array, Array]:

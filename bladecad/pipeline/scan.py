@@ -9,8 +9,7 @@ from typing import Final
 import numpy as np
 
 from bladecad.arrays import Array
-from bladecad.curves.repair import repaired
-from bladecad.curves.sides import split_sides
+from bladecad.curves.sides import BladeLines
 from bladecad.data.read_scan import read_scan
 from bladecad.data.scan import Scan
 from bladecad.data.sections import Axis, Sections
@@ -22,6 +21,7 @@ from bladecad.pipeline.scan_settings import ScanSettings
 from bladecad.scans.airfoil import Airfoil, find_airfoil
 from bladecad.scans.blade_frame import blade_frame
 from bladecad.scans.moved import moved_sections, moved_whole
+from bladecad.scans.parted import parted
 from bladecad.scans.scanned import Scanned, deviation_of_scan
 from bladecad.scans.slicing import slice_airfoil
 from bladecad.scans.support import find_gaps
@@ -64,9 +64,7 @@ def build_scan(
     with clock.step("find the airfoil"):
         airfoil = airfoil_of(scan, settings)
     with clock.step("slice"):
-        sections = slices_of(airfoil, settings)
-    with clock.step("fit the sections"):
-        lines = split_sides(sections, le=settings.le, suction=settings.suction)
+        sections, lines = slices_of(airfoil, settings)
     with clock.step("fit the surface"):
         whole = fit_scan(
             airfoil.points, lines, airfoil.axis, tolerance=settings.tolerance,
@@ -103,8 +101,7 @@ def sections_of_scan(
     with clock.step("find the airfoil"):
         airfoil = airfoil_of(scan, settings)
     with clock.step("slice"):
-        sections = slices_of(airfoil, settings)
-        lines = split_sides(sections, le=settings.le, suction=settings.suction)
+        sections, lines = slices_of(airfoil, settings)
     return named(sections, lines)
 
 
@@ -116,16 +113,17 @@ def airfoil_of(scan: Scan, settings: ScanSettings) -> Airfoil:
     )  # fmt: skip
 
 
-def slices_of(airfoil: Airfoil, settings: ScanSettings) -> Sections:
-    """Cut the airfoil into sections, in order; their notes are all there is to say so far."""
-    sections = repaired(slice_airfoil(airfoil, settings.stations))
+def slices_of(airfoil: Airfoil, settings: ScanSettings) -> tuple[Sections, BladeLines]:
+    """Cut the airfoil into sections and these into sides; their notes are all that was said."""
+    cut = slice_airfoil(airfoil, settings.stations)
+    sections, lines = parted(airfoil, cut, le=settings.le, suction=settings.suction)
     source = airfoil.scan.source
     said = (*source.notes, *airfoil.notes, *sections.source.notes)
     kept = replace(
         source, axis=sections.source.axis, axis_from=sections.source.axis_from,
         notes=tuple(dict.fromkeys(said)),
     )  # fmt: skip
-    return replace(sections, source=kept)
+    return replace(sections, source=kept), lines
 
 
 def _scanned(airfoil: Airfoil, whole: WholeFit, move: Array) -> Scanned:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Protocol, cast
+from typing import TYPE_CHECKING, Protocol, cast
 
 import numpy as np
 
@@ -15,8 +15,10 @@ from bladecad.data.sections import Axis, Sections
 from bladecad.deviation.feet import Feet
 from bladecad.fit.blade import BladeFit
 from bladecad.fit.sidefit import SideFit
-from bladecad.scans.whole import WholeFit
 from bladecad.surface.blade import BladeSurface
+
+if TYPE_CHECKING:
+    from bladecad.scans.whole import WholeFit
 
 
 class WithOne(Protocol):

@@ -125,7 +125,8 @@ def _sections(points: Points, smooth: Smooth, axis: Vector) -> tuple[Smooth, Bla
 
 
 def _split(smooth: Smooth) -> BladeLines:
-    sections = repaired(sections_of(smooth.surface, smooth.surface.span, smooth.breaks))
+    found = sections_of(smooth.surface, smooth.surface.span, smooth.breaks)
+    sections = repaired(found, ordered=True)
     try:
         return split_sides(sections, edges="find")
     except DataError:
