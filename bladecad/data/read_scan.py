@@ -15,7 +15,7 @@ from bladecad.data.formats import recognise
 from bladecad.data.read import read_sections
 from bladecad.data.scan import Scan
 from bladecad.data.scan_clean import Triangles, cleaned
-from bladecad.data.scan_mesh import mesh_format, mesh_unit, read_mesh
+from bladecad.data.scan_mesh import cloud_layout, mesh_format, mesh_unit, read_mesh
 from bladecad.data.scan_text import read_cloud
 from bladecad.data.scan_unit import unit_by_size, unit_note
 from bladecad.data.sections import MM_PER, Source, Unit
@@ -49,13 +49,14 @@ def read_scan(path: str | PathLike[str], *, unit: Unit | None = None) -> Scan:
     if path.is_dir() or holds_sections(_checked(path)):
         return _of_sections(path, unit)
     form = mesh_format(path)
-    if form:
+    layout = cloud_layout(path) if form == "PLY" else None
+    if form and not layout:
         points, triangles, dropped = cleaned(*read_mesh(path, form), soup=form == "STL")
         said = mesh_unit(path, form)
         return _settled(points, triangles, Source(path, form, notes=dropped), said, unit)
-    cloud = read_cloud(path)
+    cloud = read_cloud(path, layout)
     points, _, dropped = cleaned(cloud.points)
-    source = Source(path, "points", notes=(*cloud.notes, *dropped))
+    source = Source(path, form or "points", notes=(*cloud.notes, *dropped))
     return _settled(points, None, source, cloud.layout.unit, unit)
 
 

@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bladecad.arrays import Points
+from bladecad.data.scan_stl import read_text_stl
+from bladecad.data.scan_text import Layout
 from bladecad.data.scan_unit import unit_said
 from bladecad.data.sections import Unit
 from bladecad.errors import DataError
@@ -64,6 +66,9 @@ def read_mesh(path: Path, form: MeshFormat) -> tuple[Points, NDArray[np.int64] |
     import trimesh
 
     _refuse_cut_off(path, form)
+    quick = read_text_stl(path) if form == "STL" and _is_text(path) else None
+    if quick:
+        return quick
     try:
         with path.open("rb") as file:
             options = {"maintain_order": True, "skip_materials": True} if form == "OBJ" else {}
@@ -78,6 +83,28 @@ def read_mesh(path: Path, form: MeshFormat) -> tuple[Points, NDArray[np.int64] |
         raise DataError(f"{path.name} holds no points; export the scan again")
     _refuse_missing(path, form, points, triangles)
     return points, triangles
+
+
+def cloud_layout(path: Path) -> Layout | None:
+    """Return how the points of a PLY in text stand, None if it is binary or has faces."""
+    with path.open("rb") as file:
+        head, end, _ = file.read(HEAD).partition(b"end_header")
+    first, *others = re.split(rb"^element\s+", head, flags=re.MULTILINE)[1:] or [b""]
+    names = re.findall(r"^property\s+\w+\s+(\w+)\s*$", first.decode("latin-1"), re.MULTILINE)
+    counts = [element.split()[1] for element in (first, *others) if element]
+    empty = all(count == b"0" for count in counts[1:])
+    if not (end and empty and b"format ascii" in head and b"\n" in head):
+        return None
+    if not first.startswith(b"vertex") or not {"x", "y", "z"} <= set(names):
+        return None
+    x, y, z = (names.index(name) for name in "xyz")
+    unit = mesh_unit(path, "PLY")
+    return Layout(head.count(b"\n") + 1, (x, y, z), len(names), unit, False, int(counts[0]))
+
+
+def _is_text(path: Path) -> bool:
+    with path.open("rb") as file:
+        return b"\0" not in file.read(HEAD)
 
 
 def mesh_unit(path: Path, form: MeshFormat) -> Unit | None:

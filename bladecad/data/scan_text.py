@@ -61,18 +61,24 @@ class Cloud:
     notes: tuple[str, ...]
 
 
-def read_cloud(path: Path) -> Cloud:
+def read_cloud(path: Path, layout: Layout | None = None) -> Cloud:
     """Read x, y, z of every row of numbers; other lines are passed over.
+
+    Parameters
+    ----------
+    path : path
+    layout : Layout, optional
+        Where a head says it; otherwise learnt from the first lines.
 
     Raises
     ------
     DataError
         If no row has three numbers, a row is misspelt or cut off, or points are missing.
     """
-    layout = layout_of(path)
+    layout = layout or layout_of(path)
     parts: list[Array] = []
     passed, line = 0, layout.header
-    for chunk in _chunks(path, layout.header):
+    for chunk in chunks(path, layout.header):
         found, other = _parsed(chunk, layout, f"{path.name}, line", line)
         parts += found
         passed, line = passed + other, line + chunk.count(b"\n")
@@ -172,7 +178,7 @@ def _opened(path: Path) -> BinaryIO:
     return path.open("rb")
 
 
-def _chunks(path: Path, skip: int) -> Iterator[bytes]:
+def chunks(path: Path, skip: int) -> Iterator[bytes]:
     """The file without its first lines, in pieces that end with a line."""
     rest = b""
     with _opened(path) as file:
@@ -195,7 +201,7 @@ def _parsed(chunk: bytes, layout: Layout, at: str, line: int) -> tuple[list[Arra
     """
     lines = chunk.count(b"\n")
     table = bytes.maketrans(b',;\t"', b".   " if layout.commas else b"    ")
-    values = _numbers(chunk.translate(table))
+    values = numbers(chunk.translate(table))
     if values is not None and len(values) == lines * layout.width:
         return [values.reshape(lines, layout.width)[:, layout.columns]], 0
     if len(chunk) < SLOW:
@@ -214,7 +220,7 @@ def _by_word(chunk: bytes, layout: Layout, at: str, line: int) -> tuple[list[Arr
     return [points], sum(row is None for row in found)
 
 
-def _numbers(chunk: bytes) -> Array | None:
+def numbers(chunk: bytes) -> Array | None:
     """All numbers of a chunk, None where anything else stands in it."""
     with warnings.catch_warnings():
         warnings.simplefilter("error")

@@ -248,7 +248,7 @@ BAD: dict[str, tuple[bytes, str]] = {
     "half_ascii.ply": (exported("ply", encoding="ascii")[:4000], "cannot be read as PLY: .*cut"),
     "lines.ply": (
         b"\n".join(ply("ascii").splitlines()[:50]),
-        "60 points and 0 faces announced, 37 and 0",
+        "60 points announced, 37 follow; the file is cut off",
     ),
     "head.ply": (ply("ascii")[:60], "cannot be read as PLY: .*cut off"),
     "half.obj": (text([*VERTICES, "f 1 2"]), 'ends with "f 1 2": it is cut off'),
