@@ -36,6 +36,7 @@ Progress = Callable[[str], None]
 FINEST: Final = 0.002  # mm; flows need not follow the smooth surface closer
 SHARE: Final = 0.5  # of the noise, to which the flows follow the smooth surface
 PASSES: Final = 2
+STRAYED: Final = 8.0  # sigmas from the smooth surface: no flow follows the points there
 DENSE: Final = 401  # places of a section at which the flows are judged
 STIFFER: Final = (10.0, 100.0, 1000.0)  # times the weight of smoothness
 
@@ -141,7 +142,7 @@ def _flows(
     progress("fit the flows")
     with threadpool_limits(1):
         try:
-            return fit_blade(lines, tolerance=close, order=order, progress=progress)
+            return fit_blade(lines, tolerance=close, order=order, noise=close, progress=progress)
         except FitError as error:
             if not isinstance(error.best, BladeFit):
                 raise
@@ -165,11 +166,15 @@ def _settled(
     in_t = Splines.on(np.sort(np.concatenate([breaks, 0.5 * (breaks[1:] + breaks[:-1])])))
     free = freedom(surface, in_t, axis)
     prior = roughness(surface, free, smooth.scatter.noise)
+    bound = max(STRAYED * max(smooth.scatter.noise, fitted.tolerance), fitted.errors.largest)
     for k in range(PASSES):
         progress(f"fit the surface, pass {k + 1}")
         step = descend(surface, free, points, prior, FLOOR, DAMPING)
-        surface = step.surface
         log.info("moved by %.3g mm rms; %s", step.motion, step.scatter)
+        if _errors(step.surface, lines).largest > bound:
+            log.info("that leaves the smooth surface by more than %.3g mm, and is not taken", bound)
+            break
+        surface = step.surface
     feet, weight = standing(surface, points, FLOOR)
     left = scatter(feet, weight > 0)
     errors = judge(Bench.of(lines), surface.suction, surface.pressure)
