@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Final
@@ -13,6 +15,7 @@ from bladecad.curves.sides import BladeLines
 from bladecad.data.read_scan import read_scan
 from bladecad.data.scan import Scan
 from bladecad.data.sections import Axis, Sections
+from bladecad.errors import DataError, GeometryError
 from bladecad.pipeline.body import body_of
 from bladecad.pipeline.clock import Clock, Progress
 from bladecad.pipeline.scan_build import ScanBuild
@@ -66,10 +69,11 @@ def build_scan(
     with clock.step("slice"):
         sections, lines = slices_of(airfoil, settings)
     with clock.step("fit the surface"):
-        whole = fit_scan(
-            airfoil.points, lines, airfoil.axis, tolerance=settings.tolerance,
-            order=settings.order, progress=progress,
-        )  # fmt: skip
+        with _said_of(scan, "no surface follows the points: "):
+            whole = fit_scan(
+                airfoil.points, lines, airfoil.axis, tolerance=settings.tolerance,
+                order=settings.order, progress=progress,
+            )  # fmt: skip
         move = blade_frame(whole.surface, airfoil.axis) if settings.align else np.eye(4)
         if settings.align:
             whole, sections = moved_whole(whole, move), moved_sections(sections, move, MACHINE)
@@ -107,16 +111,18 @@ def sections_of_scan(
 
 def airfoil_of(scan: Scan, settings: ScanSettings) -> Airfoil:
     """Find what of the scan is airfoil, as the settings say."""
-    return find_airfoil(
-        scan, axis=settings.direction, span=settings.span, height=settings.height,
-        partial=settings.partial,
-    )  # fmt: skip
+    with _said_of(scan):
+        return find_airfoil(
+            scan, axis=settings.direction, span=settings.span, height=settings.height,
+            partial=settings.partial,
+        )  # fmt: skip
 
 
 def slices_of(airfoil: Airfoil, settings: ScanSettings) -> tuple[Sections, BladeLines]:
     """Cut the airfoil into sections and these into sides; their notes are all that was said."""
-    cut = slice_airfoil(airfoil, settings.stations)
-    sections, lines = parted(airfoil, cut, le=settings.le, suction=settings.suction)
+    with _said_of(airfoil.scan):
+        cut = slice_airfoil(airfoil, settings.stations)
+        sections, lines = parted(airfoil, cut, le=settings.le, suction=settings.suction)
     source = airfoil.scan.source
     said = (*source.notes, *airfoil.notes, *sections.source.notes)
     kept = replace(
@@ -124,6 +130,17 @@ def slices_of(airfoil: Airfoil, settings: ScanSettings) -> tuple[Sections, Blade
         notes=tuple(dict.fromkeys(said)),
     )  # fmt: skip
     return replace(sections, source=kept), lines
+
+
+@contextmanager
+def _said_of(scan: Scan, before: str = "") -> Iterator[None]:
+    """Let a refusal begin with the name of the file; with `before`, say what came of it."""
+    name = scan.source.path.name if scan.source.path else "the scan"
+    try:
+        yield
+    except (DataError, GeometryError) as error:
+        said = f"{before}{error}"
+        raise type(error)(said if name in said else f"{name}: {said}") from error
 
 
 def _scanned(airfoil: Airfoil, whole: WholeFit, move: Array) -> Scanned:

@@ -174,7 +174,7 @@ def test_what_is_no_scan_of_a_blade_is_one_line_and_leaves_nothing(
     output = tmp_path / ("out" if command == "build" else "out.csv")
     code, out, err = run(command, tmp_path / name, "-o", output)
     assert (code, out) == (2, "")
-    assert re.fullmatch(r"bladecad: [^\n]+\n", err)
+    assert re.fullmatch(rf"bladecad: {re.escape(name)}[^\n]+\n", err)
     assert "bug" not in err
     assert [path.name for path in tmp_path.iterdir()] == [name]
 
