@@ -11,8 +11,8 @@ from bladecad.arrays import Array, Points
 from bladecad.data.blocks import Block, blocks
 from bladecad.data.family import siblings
 from bladecad.data.read_scan import HEAD, holds_sections
+from bladecad.data.scan_layout import Layout, layout_of
 from bladecad.data.scan_mesh import mesh_format
-from bladecad.data.scan_text import Layout, layout_of
 from bladecad.data.text import Text, fields
 from bladecad.errors import DataError
 

@@ -9,19 +9,17 @@ from typing import Final, final
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import label, maximum_filter
-from scipy.spatial import KDTree
 
 from bladecad.arrays import Array, Mask, Points, Vector, seal
 from bladecad.deviation.feet import Feet
+from bladecad.scans.cover import Cover, area_of, cover_of, nearest, tree_of
 from bladecad.surface.blade import BladeSurface, SideName
 
 SIDES: Final[tuple[SideName, SideName]] = ("suction", "pressure")
 MOST: Final = 150_000  # points looked at; of more, as many are drawn
 STEP: Final = 0.85  # between places, in spacings; a spacing is that of a square grid, area^1/2
 QUARTER: Final = 0.3  # spacings to the nearest of points strewn at random, at a quarter of places
-NEIGHBOURS: Final = 8  # the circle round a point that reaches so many is 1.6 spacings wide
 WIDE: Final = 1.5  # of the widest of these circles nearby: no wider disc is empty by chance
-ALONE: Final = 3.0  # times the circles of its neighbours: a point that tells nothing of the cover
 LEAST, LARGEST = 2.0, 20.0  # spacings: radius of the smallest disc that is a gap; thinnest cover
 ROUND: Final = 2.5  # times the radius of a disc: so far round it the cover is looked at
 
@@ -47,28 +45,6 @@ class Gap:
 
     def __post_init__(self) -> None:
         seal(self, centre=(3,))
-
-
-@final
-@dataclass(frozen=True, eq=False)
-class Cover:
-    """One side of a surface, at places a step apart, and the points near them.
-
-    u, t  : (a,) and (b,) float, of the places
-    X     : (a, b, 3) float, mm
-    area  : (a, b) float, mm^2, that each place stands for
-    near  : (a, b) float, mm, to the nearest point
-    reach : (a, b) float, mm, to the eighth neighbour of the loneliest point at the place, 0 where
-            there is none
-    """
-
-    side: SideName
-    u: Vector
-    t: Vector
-    X: Array
-    area: Array
-    near: Array
-    reach: Array
 
 
 @final
@@ -120,11 +96,11 @@ def support_of(surface: BladeSurface, feet: Feet) -> Support:
     counts = np.flatnonzero(~feet.rim)
     if len(counts) > MOST:
         counts = np.sort(np.random.default_rng(0).choice(counts, MOST, replace=False))
-    area = _area(surface, "suction") + _area(surface, "pressure")
+    area = area_of(surface, "suction") + area_of(surface, "pressure")
     step = STEP * float(np.sqrt(area / max(len(counts), 1)))
     on = feet.suction[counts]
-    suction = _cover(surface, "suction", feet, counts[on], step)
-    pressure = _cover(surface, "pressure", feet, counts[~on], step)
+    suction = cover_of(surface, "suction", feet, counts[on], step)
+    pressure = cover_of(surface, "pressure", feet, counts[~on], step)
     near = np.concatenate([suction.near.ravel(), pressure.near.ravel()])
     quarter = float(np.quantile(near, 0.25, method="lower"))
     usual = quarter / QUARTER if np.isfinite(quarter) else step / STEP
@@ -141,31 +117,6 @@ def supported(
 ) -> NDArray[np.bool_]:
     """Whether points support the places of the grid u x t of one side, (len(u), len(t))."""
     return support_of(surface, feet)(side, u, t)
-
-
-def _cover(
-    surface: BladeSurface, side: SideName, feet: Feet, own: NDArray[np.intp], step: float
-) -> Cover:
-    """Places a step apart, hub, tip and edges among them."""
-    x = np.linspace(0.0, 1.0, 17)
-    tall, long = (
-        float(np.linalg.norm(surface(side, x, x, *order), axis=2).max())
-        for order in ((1, 0), (0, 1))
-    )
-    u, t = (np.linspace(0.0, 1.0, max(int(size / step), 8) + 1) for size in (tall, long))
-    X = surface(side, u, t)
-    near, reach = np.full(X.shape[:2], np.inf), np.zeros(X.shape[:2])
-    if len(own) > NEIGHBOURS:
-        tree = _tree(feet.foot[own])
-        near = _nearest(tree, X.reshape(-1, 3), 1)[0].reshape(near.shape)
-        away, beside = _nearest(tree, feet.foot[own], NEIGHBOURS + 1)
-        far = away[:, -1]
-        told = far <= ALONE * np.median(far[beside[:, 1:]], axis=1)
-        at = (
-            np.rint(x[own[told]] * (len(y) - 1)).astype(int) for x, y in ((feet.u, u), (feet.t, t))
-        )
-        np.maximum.at(reach, tuple(at), far[told])
-    return Cover(side, u, t, X, _areas(X), near, reach)
 
 
 def _discs(cover: Cover, spacing: float) -> tuple[Points, Vector]:
@@ -195,7 +146,7 @@ def _in_discs(X: Array, middles: Points, radius: Vector) -> NDArray[np.bool_]:
     """Which places lie in an empty disc, of the shape of X without its last axis."""
     if not len(middles):
         return np.zeros(X.shape[:-1], bool)
-    away, which = _nearest(_tree(middles), X.reshape(-1, 3), 1, float(radius.max()) * (1 + 1e-9))
+    away, which = nearest(tree_of(middles), X.reshape(-1, 3), 1, float(radius.max()) * (1 + 1e-9))
     found = np.isfinite(away)
     found[found] = away[found] <= radius[which[found]]
     return np.asarray(found.reshape(X.shape[:-1]))
@@ -218,29 +169,3 @@ def _gap(cover: Cover, inside: Mask) -> Gap:
         X[np.argmin(np.linalg.norm(X - middle, axis=1))],
         float(area.sum() / cover.area.sum()),
     )
-
-
-def _tree(points: Points) -> KDTree:
-    return KDTree(points, balanced_tree=False, compact_nodes=False)
-
-
-def _nearest(
-    tree: KDTree, X: Points, count: int, within: float = np.inf
-) -> tuple[Array, NDArray[np.intp]]:
-    """Distances and numbers of the nearest few, infinite beyond `within`."""
-    away, which = tree.query(X, count, distance_upper_bound=within, workers=-1)
-    return np.asarray(away), np.asarray(which, dtype=np.intp)
-
-
-def _areas(X: Array) -> Array:
-    """Area that each place of a grid stands for, mm^2."""
-    n = np.cross(np.gradient(X, axis=0), np.gradient(X, axis=1))
-    area = np.linalg.norm(n, axis=2)
-    area[[0, -1]] *= 0.5
-    area[:, [0, -1]] *= 0.5
-    return np.asarray(area)
-
-
-def _area(surface: BladeSurface, side: SideName) -> float:
-    x = np.linspace(0.0, 1.0, 41)
-    return float(_areas(surface(side, x, x)).sum())
