@@ -77,9 +77,11 @@ def build_scan(
         move = blade_frame(whole.surface, airfoil.axis) if settings.align else np.eye(4)
         if settings.align:
             whole, sections = moved_whole(whole, move), moved_sections(sections, move, MACHINE)
-    body = body_of(
-        whole.surface, tolerance=settings.tolerance, chord_error=settings.chord_error, clock=clock
-    )
+    with _said_of(scan):
+        body = body_of(
+            whole.surface, tolerance=settings.tolerance, chord_error=settings.chord_error,
+            clock=clock,
+        )  # fmt: skip
     with clock.step("deviation"):
         scanned = _scanned(airfoil, whole, move)
         deviation = deviation_of_scan(airfoil, whole, body.mesh)
