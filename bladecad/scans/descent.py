@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from itertools import product
 from typing import Final, NamedTuple
@@ -76,15 +77,16 @@ def descend(
     )
     M = weight[:, None] * (_products(n) + damping**2 * _products(tau))
     f = n * (weight * feet.distance)[:, None]
-    sums = tuple(
-        _sums(free, feet, M, f, which & (weight > 0)) for which in (feet.suction, ~feet.suction)
-    )
-    with threadpool_limits(2):
-        y = best_move(free, (sums[0], sums[1]), prior, local_poles(surface, free))
+    with ThreadPoolExecutor(2) as both:
+        counted = (feet.suction & (weight > 0), ~feet.suction & (weight > 0))
+        suction, pressure = both.map(lambda which: _sums(free, feet, M, f, which), counted)
+    with threadpool_limits(1):  # small products: threads only wait for each other
+        y = best_move(free, (suction, pressure), prior, local_poles(surface, free))
     after = moved(surface, free, y)
     some = np.arange(0, len(points), max(len(points) // TOLD_BY, 1))
     left = _left(free, y, feet[some])
-    return Step(after, feet, weight, _motion(surface, after), scatter(left, weight[some] > 0))
+    used = free.in_u.size * free.ways / max(int((weight > 0.0).sum()), 1)
+    return Step(after, feet, weight, _motion(surface, after), scatter(left, weight[some] > 0, used))
 
 
 def standing(surface: BladeSurface, points: Points, floor: float) -> tuple[Feet, Vector]:

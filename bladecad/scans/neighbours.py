@@ -35,17 +35,20 @@ class Scatter:
     correlation: float
 
 
-def scatter(feet: Feet, counts: Mask) -> Scatter:
+def scatter(feet: Feet, counts: Mask, used: float = 0.0) -> Scatter:
     """Tell noise and lack of fit apart.
 
     A residual is r = noise + lack of fit, and neighbours share the second: sigma is
-    1.48 MAD(r_i - r_j) / sqrt(2), whatever the fit; E r_i r_j over E r^2 is what the fit leaves.
+    1.48 MAD(r_i - r_j) / sqrt(2), whatever the fit; E r_i r_j over E r^2 is what the fit leaves,
+    once what it has followed of the noise is added: its freedoms over the points.
 
     Parameters
     ----------
     feet : Feet
     counts : (k,) bool
         Points to use; outliers are left out.
+    used : float
+        Freedoms of the fit over the points it was fitted to.
     """
     first, second = pairs(feet, np.flatnonzero(counts))
     r = feet.distance
@@ -53,7 +56,7 @@ def scatter(feet: Feet, counts: Mask) -> Scatter:
     rms = float(np.sqrt(np.mean(r[counts] ** 2)))
     zone = np.searchsorted(ZONES, feet.t[first])
     found = [_correlation(r[first[zone == z]], r[second[zone == z]]) for z in range(3)]
-    return Scatter(noise, rms / max(noise, EXACT), max(found))
+    return Scatter(noise, rms / max(noise, EXACT), max(found) + used)
 
 
 def pairs(feet: Feet, which: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

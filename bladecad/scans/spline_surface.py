@@ -27,6 +27,7 @@ LADDER: Final = ((11, 0.36), (15, 0.30), (21, 0.25), (29, 0.21), (41, 0.18))  # 
 LESS: Final = 0.85  # of the correlation; a rung that leaves more is not taken
 EACH: Final = 6  # points a span at least
 FEW: Final = 60_000  # points of the first passes
+MANY: Final = 300_000  # points of the others
 FIRST_PASSES: Final = 3
 STIFF_PASSES: Final = 2
 DAMPING: Final = 0.3  # of moves along a section: at an edge, splines would slide over each other
@@ -40,7 +41,7 @@ class Smooth(NamedTuple):
     surface : BladeSurface
     breaks  : of its splines along the sides
     scatter : of the points about it
-    passes  : over all points
+    passes  : that it took
     """
 
     surface: BladeSurface
@@ -54,8 +55,8 @@ class Smooth(NamedTuple):
         size = f"{len(self.surface.span) - 1} spans along it, {2 * len(self.breaks) - 2} round it"
         if self.scatter.correlation <= 0.0:
             return (
-                f"{size}: neighbouring residuals are unrelated, two standard errors of their "
-                "correlation hold zero; what is left is noise"
+                f"{size}: neighbouring residuals are unrelated, their correlation is within two "
+                "standard errors of zero; what is left is noise"
             )
         return (
             f"{size}: neighbouring residuals stay related (correlation at least "
@@ -69,11 +70,14 @@ def smooth_surface(
 ) -> Smooth:
     """Lay a surface through the points, finer until what is left of neighbours is unrelated.
 
+    Three hundred thousand of them say as much of its sections as all do.
+
     Raises
     ------
     DataError
         If there are fewer points than the coarsest surface needs.
     """
+    points = points[:: -(-len(points) // MANY)]
     best = _first(points, through(start), axis, progress)
     for stations, turn in LADDER[1:]:
         breaks = breaks_along(best.surface, turn)
@@ -96,7 +100,7 @@ def _first(points: Points, surface: BladeSurface, axis: Vector, progress: Progre
             "lay a surface through them; scan closer"
         )
     surface, free = _written(surface, stations, breaks, axis, progress)
-    few, prior = points[:: max(len(points) // FEW, 1)], roughness(surface, free, FAR)
+    few, prior = points[:: -(-len(points) // FEW)], roughness(surface, free, FAR)
     for _ in range(FIRST_PASSES):
         step = descend(surface, free, few, prior, FAR, DAMPING)
         surface = step.surface

@@ -55,7 +55,7 @@ class WholeFit:
     excess      : rms of those that count over the noise; 1 where only noise is left
     correlation : of neighbouring residuals, 0 where only noise is left
     criterion   : why this order and these spans
-    passes      : over all points
+    passes      : that it took, over many points or all
     """
 
     fit: BladeFit
@@ -176,7 +176,8 @@ def _settled(
             break
         surface = step.surface
     feet, weight = standing(surface, points, FLOOR)
-    left = scatter(feet, weight > 0)
+    used = free.in_u.size * free.ways / max(int((weight > 0.0).sum()), 1)
+    left = scatter(feet, weight > 0, used)
     errors = judge(Bench.of(lines), surface.suction, surface.pressure)
     fit = replace(
         fitted, suction=surface.suction, pressure=surface.pressure, errors=errors,
