@@ -12,7 +12,7 @@ from threadpoolctl import threadpool_limits
 
 from bladecad.arrays import Array, Mask, Points, Vector
 from bladecad.deviation.feet import Feet
-from bladecad.deviation.nominal import nominal_of
+from bladecad.deviation.nominal import Nominal, nominal_of
 from bladecad.deviation.project import project
 from bladecad.scans.freedom import Freedom, local_poles, moved
 from bladecad.scans.local import ORDER
@@ -70,7 +70,7 @@ def descend(
     damping : float
         Weight of a move along the section, beside one across it.
     """
-    feet, weight = standing(surface, points, floor)
+    feet, weight = standing(nominal_of(surface), points, floor)
     n = feet.normal @ free.axes.T
     tau = (
         np.column_stack([-n[:, 1], n[:, 0]]) / np.maximum(np.linalg.norm(n, axis=1), 1e-9)[:, None]
@@ -89,9 +89,9 @@ def descend(
     return Step(after, feet, weight, _motion(surface, after), scatter(left, weight[some] > 0, used))
 
 
-def standing(surface: BladeSurface, points: Points, floor: float) -> tuple[Feet, Vector]:
+def standing(nominal: Nominal, points: Points, floor: float) -> tuple[Feet, Vector]:
     """Where the points stand on a surface, and what each of them counts."""
-    feet = project(nominal_of(surface), points)
+    feet = project(nominal, points)
     on = of_the_airfoil(feet)
     weight = np.zeros(len(points))
     weight[on] = weights(feet.distance[on], feet.suction[on], feet.t[on], floor)

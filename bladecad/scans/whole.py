@@ -8,37 +8,26 @@ from dataclasses import dataclass, replace
 from typing import Final, final
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
-from bladecad.arrays import Lines, Points, Vector, seal
-from bladecad.curves.repair import repaired
-from bladecad.curves.sides import BladeLines, split_sides
+from bladecad.arrays import Points, Vector, seal
+from bladecad.curves.sides import BladeLines
 from bladecad.deviation.feet import Feet
-from bladecad.deviation.nominal import Nominal, nominal_of
-from bladecad.deviation.project import project
-from bladecad.errors import DataError, FitError
+from bladecad.deviation.nominal import nominal_of
 from bladecad.fit.blade import BladeFit, Order
-from bladecad.fit.judge import SIDES, Bench, Errors, SideErrors, judge
-from bladecad.fit.order import fit_blade
 from bladecad.scans.descent import descend, standing
+from bladecad.scans.flows import errors_of, flows_of, sections_for
 from bladecad.scans.freedom import freedom
 from bladecad.scans.knots import breaks_along
-from bladecad.scans.laid_on import sections_of
 from bladecad.scans.local import Splines
 from bladecad.scans.neighbours import scatter
 from bladecad.scans.prior import roughness
-from bladecad.scans.spline_surface import DAMPING, FLOOR, Smooth, smooth_surface, stiffened
+from bladecad.scans.spline_surface import DAMPING, FLOOR, Smooth, smooth_surface
 from bladecad.surface.blade import BladeSurface
-from bladecad.surface.loft import graded
 
 log = logging.getLogger(__name__)
 Progress = Callable[[str], None]
-FINEST: Final = 0.002  # mm; flows need not follow the smooth surface closer
-SHARE: Final = 0.5  # of the noise, to which the flows follow the smooth surface
 PASSES: Final = 2
 STRAYED: Final = 8.0  # sigmas from the smooth surface: no flow follows the points there
-DENSE: Final = 401  # places of a section at which the flows are judged
-STIFFER: Final = (10.0, 100.0, 1000.0)  # times the weight of smoothness
 
 
 @final
@@ -109,44 +98,9 @@ def fit_scan(
     FitError
         If the flows cannot follow.
     """
-    smooth, lines = _sections(points, smooth_surface(points, start, axis, progress), axis)
-    fitted = _flows(smooth, lines, tolerance, order, progress)
+    smooth, lines = sections_for(points, smooth_surface(points, start, axis, progress), axis)
+    fitted = flows_of(smooth, lines, tolerance, order, progress)
     return _settled(points, smooth, fitted, axis, tolerance, progress)
-
-
-def _sections(points: Points, smooth: Smooth, axis: Vector) -> tuple[Smooth, BladeLines]:
-    """Cut the smooth surface into sections; stiffen it where noise has folded their edges."""
-    for factor in STIFFER:
-        try:
-            return smooth, _split(smooth)
-        except DataError as error:
-            log.info("%s; smoothness is weighed %g times", error, factor)
-            smooth = stiffened(points, smooth, factor, axis)
-    return smooth, _split(smooth)
-
-
-def _split(smooth: Smooth) -> BladeLines:
-    found = sections_of(smooth.surface, smooth.surface.span, smooth.breaks)
-    sections = repaired(found, ordered=True)
-    try:
-        return split_sides(sections, edges="find")
-    except DataError:
-        return split_sides(sections)
-
-
-def _flows(
-    smooth: Smooth, lines: BladeLines, tolerance: float, order: Order | None, progress: Progress
-) -> BladeFit:
-    """Fit flows to sections of the smooth surface."""
-    close = float(np.clip(SHARE * smooth.scatter.noise, min(FINEST, tolerance), tolerance))
-    progress("fit the flows")
-    with threadpool_limits(1):
-        try:
-            return fit_blade(lines, tolerance=close, order=order, noise=close, progress=progress)
-        except FitError as error:
-            if not isinstance(error.best, BladeFit):
-                raise
-            return error.best
 
 
 def _settled(
@@ -167,40 +121,26 @@ def _settled(
     free = freedom(surface, in_t, axis)
     prior = roughness(surface, free, smooth.scatter.noise)
     bound = max(STRAYED * max(smooth.scatter.noise, fitted.tolerance), fitted.errors.largest)
+    after = surface
     for k in range(PASSES):
         progress(f"fit the surface, pass {k + 1}")
-        step = descend(surface, free, points, prior, FLOOR, DAMPING)
+        step = descend(after, free, points, prior, FLOOR, DAMPING)
         log.info("moved by %.3g mm rms; %s", step.motion, step.scatter)
-        if _errors(step.surface, lines).largest > bound:
-            log.info("that leaves the smooth surface by more than %.3g mm, and is not taken", bound)
-            break
-        surface = step.surface
-    feet, weight = standing(surface, points, FLOOR)
+        after = step.surface
+    nominal = nominal_of(after)
+    errors = errors_of(nominal, lines)
+    if errors.largest > bound:
+        log.info("that leaves the smooth surface by %.3g mm, and is not taken", errors.largest)
+        after, nominal = surface, nominal_of(surface)
+        errors = errors_of(nominal, lines)
+    feet, weight = standing(nominal, points, FLOOR)
     used = free.in_u.size * free.ways / max(int((weight > 0.0).sum()), 1)
     left = scatter(feet, weight > 0, used)
-    errors = judge(Bench.of(lines), surface.suction, surface.pressure)
     fit = replace(
-        fitted, suction=surface.suction, pressure=surface.pressure, errors=errors,
+        fitted, suction=after.suction, pressure=after.pressure, errors=errors,
         tolerance=tolerance, reason="",
     )  # fmt: skip
     return WholeFit(
-        fit, surface, points, feet, weight, left.noise, left.excess, left.correlation,
+        fit, after, points, feet, weight, left.noise, left.excess, left.correlation,
         smooth.criterion, smooth.passes + PASSES,
     )  # fmt: skip
-
-
-def _errors(surface: BladeSurface, lines: BladeLines) -> Errors:
-    """Distances of the sections of the smooth surface from S along its normal.
-
-    The move along a section that points do not feel would show at equal parameters.
-    """
-    nominal, t = nominal_of(surface), graded(DENSE)
-    sides = [_of_side(nominal, lines.sample(side, t), t) for side in SIDES]
-    at_equal = judge(Bench.of(lines), surface.suction, surface.pressure)
-    return replace(at_equal, suction=sides[0], pressure=sides[1])
-
-
-def _of_side(nominal: Nominal, points: Lines, t: Vector) -> SideErrors:
-    d = np.abs(project(nominal, points.reshape(-1, 3)).distance).reshape(len(points), -1)
-    rms = np.sqrt(np.mean(d**2, axis=1))
-    return SideErrors(d.max(axis=1), rms, t[d.argmax(axis=1)], d.max(axis=1))

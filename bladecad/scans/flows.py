@@ -1,0 +1,84 @@
+"""Flows fitted to a smooth surface: its sections give edges, rates and order."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from bladecad.arrays import Lines, Points, Vector
+from bladecad.curves.repair import repaired
+from bladecad.curves.sides import BladeLines, split_sides
+from bladecad.deviation.nominal import Nominal
+from bladecad.deviation.project import project
+from bladecad.errors import DataError, FitError
+from bladecad.fit.blade import BladeFit, Order
+from bladecad.fit.judge import SIDES, Bench, Errors, SideErrors, judge
+from bladecad.fit.order import fit_blade
+from bladecad.scans.laid_on import sections_of
+from bladecad.scans.spline_surface import Smooth, stiffened
+from bladecad.surface.loft import graded
+
+log = logging.getLogger(__name__)
+Progress = Callable[[str], None]
+
+FINEST: Final = 0.002  # mm; flows need not follow the smooth surface closer
+SHARE: Final = 0.5  # of the noise, to which the flows follow the smooth surface
+STIFFER: Final = (10.0, 100.0, 1000.0)  # times the weight of smoothness
+DENSE: Final = 401  # places of a section at which the flows are judged
+
+
+def sections_for(points: Points, smooth: Smooth, axis: Vector) -> tuple[Smooth, BladeLines]:
+    """Cut the smooth surface into sections; stiffen it where noise has folded their edges."""
+    for factor in STIFFER:
+        try:
+            return smooth, _split(smooth)
+        except DataError as error:
+            log.info("%s; smoothness is weighed %g times", error, factor)
+            smooth = stiffened(points, smooth, factor, axis)
+    return smooth, _split(smooth)
+
+
+def _split(smooth: Smooth) -> BladeLines:
+    found = sections_of(smooth.surface, smooth.surface.span, smooth.breaks)
+    sections = repaired(found, ordered=True)
+    try:
+        return split_sides(sections, edges="find")
+    except DataError:
+        return split_sides(sections)
+
+
+def flows_of(
+    smooth: Smooth, lines: BladeLines, tolerance: float, order: Order | None, progress: Progress
+) -> BladeFit:
+    """Fit flows to sections of the smooth surface."""
+    close = float(np.clip(SHARE * smooth.scatter.noise, min(FINEST, tolerance), tolerance))
+    progress("fit the flows")
+    with threadpool_limits(1):
+        try:
+            return fit_blade(lines, tolerance=close, order=order, noise=close, progress=progress)
+        except FitError as error:
+            if not isinstance(error.best, BladeFit):
+                raise
+            return error.best
+
+
+def errors_of(nominal: Nominal, lines: BladeLines) -> Errors:
+    """Distances of sections from a surface along its normal.
+
+    A move along a section, which points do not feel, would show at equal parameters.
+    """
+    surface, t = nominal.surface, graded(DENSE)
+    sides = [_of_side(nominal, lines.sample(side, t), t) for side in SIDES]
+    at_equal = judge(Bench.of(lines), surface.suction, surface.pressure)
+    return replace(at_equal, suction=sides[0], pressure=sides[1])
+
+
+def _of_side(nominal: Nominal, points: Lines, t: Vector) -> SideErrors:
+    d = np.abs(project(nominal, points.reshape(-1, 3)).distance).reshape(len(points), -1)
+    rms = np.sqrt(np.mean(d**2, axis=1))
+    return SideErrors(d.max(axis=1), rms, t[d.argmax(axis=1)], d.max(axis=1))
