@@ -26,7 +26,9 @@ from bladecad.surface.blade import BladeSurface
 
 log = logging.getLogger(__name__)
 Progress = Callable[[str], None]
-PASSES: Final = 2
+PASSES: Final = 5  # over all points, at most
+STILL: Final = 0.03  # of the noise: a smaller rms move is none
+LEAST: Final = 1e-4  # mm; nor is one below this
 STRAYED: Final = 8.0  # sigmas from the smooth surface: no flow follows the points there
 
 
@@ -121,12 +123,13 @@ def _settled(
     free = freedom(surface, in_t, axis)
     prior = roughness(surface, free, smooth.scatter.noise)
     bound = max(STRAYED * max(smooth.scatter.noise, fitted.tolerance), fitted.errors.largest)
-    after = surface
-    for k in range(PASSES):
-        progress(f"fit the surface, pass {k + 1}")
-        step = descend(after, free, points, prior, FLOOR, DAMPING)
-        log.info("moved by %.3g mm rms; %s", step.motion, step.scatter)
-        after = step.surface
+    after, passes, motion = surface, 0, np.inf
+    still = max(STILL * smooth.scatter.noise, LEAST)
+    while motion > still and passes < PASSES:
+        passes += 1
+        progress(f"fit the surface, pass {passes}")
+        after, _, _, motion, left = descend(after, free, points, prior, FLOOR, DAMPING)
+        log.info("moved by %.3g mm rms; %s", motion, left)
     nominal = nominal_of(after)
     errors = errors_of(nominal, lines)
     if errors.largest > bound:
@@ -142,5 +145,5 @@ def _settled(
     )  # fmt: skip
     return WholeFit(
         fit, after, points, feet, weight, left.noise, left.excess, left.correlation,
-        smooth.criterion, smooth.passes + PASSES,
+        smooth.criterion, smooth.passes + passes,
     )  # fmt: skip
