@@ -151,7 +151,7 @@ def _outlines(sections: Sections, find: bool, keep: Sequence[Mask] | None) -> li
                 f'"{outlines[0].section.name}" {" and ".join(outlines[0].kinds)}; tag the corners '
                 "of a cut-off edge on all sections or on none"
             )
-    return outlines
+    return _alike(outlines)
 
 
 def _facing(outline: Outline) -> Outline:
@@ -159,6 +159,30 @@ def _facing(outline: Outline) -> Outline:
     first, last = outline.flat.points[[_nearest(outline, f) for f in (0.0, 1.0)]]
     along = 0 if abs(last[0] - first[0]) > 0.05 * np.linalg.norm(last - first) else 1
     return outline.turned() if first[along] > last[along] else outline
+
+
+def _alike(outlines: list[Outline]) -> list[Outline]:
+    """Turn outlines whose edges lie nearer to those of their neighbour the other way round.
+
+    A chord across the machine axis does not tell which edge is the lower; begin where it tells
+    most.
+    """
+    ends = [o.sides[0](np.array([0.0, 1.0])) for o in outlines]
+    rise = [_rise(o) for o in outlines]
+    first = int(np.argmax(rise))
+    order = [(k, k - 1) for k in range(first + 1, len(ends))]
+    order += [(k, k + 1) for k in range(first - 1, -1, -1)]
+    for k, beside in order:
+        straight, across = (np.linalg.norm(e - ends[beside]) for e in (ends[k], ends[k][::-1]))
+        if across < straight:
+            outlines[k], ends[k] = outlines[k].turned(), ends[k][::-1]
+    return outlines
+
+
+def _rise(outline: Outline) -> float:
+    """Rise along the machine axis from edge to edge, over their distance."""
+    first, last = outline.flat.points[[_nearest(outline, f) for f in (0.0, 1.0)]]
+    return float(abs(last[0] - first[0]) / np.linalg.norm(last - first))
 
 
 def _nearest(outline: Outline, fraction: float) -> int:

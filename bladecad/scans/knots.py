@@ -12,6 +12,7 @@ from bladecad.surface.loft import SIDES, graded
 
 TURN: Final = 0.3  # rad a span, usually
 LENGTH: Final = 1.0 / 24.0  # of the side a span, at most
+SHORTEST: Final = 2e-4  # of the side; an edge of 0.1 mm on a chord of 100 mm turns by 0.2 rad
 GROWTH: Final = 1.6  # from one span to the next
 PLACES: Final = 1500
 
@@ -29,7 +30,7 @@ def breaks_along(surface: BladeSurface, most: float = TURN) -> Vector:
         T /= np.linalg.norm(T, axis=2, keepdims=True)
         turn = np.sqrt((np.linalg.norm(np.diff(T, axis=1), axis=2) ** 2).mean(axis=0))
         density = np.maximum(density, turn / np.diff(t) / most)
-    return _spread(t, _tame(t, density))
+    return _spread(t, _tame(t, np.minimum(density, 1.0 / SHORTEST)))
 
 
 def _tame(t: Vector, density: Vector) -> Vector:

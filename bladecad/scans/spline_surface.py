@@ -78,9 +78,10 @@ def smooth_surface(
         If there are fewer points than the coarsest surface needs.
     """
     points = points[:: -(-len(points) // MANY)]
-    best = _first(points, through(start), axis, progress)
+    rough = through(start)  # noise that a finer surface follows would ask for ever more breaks
+    best = _first(points, rough, axis, progress)
     for stations, turn in LADDER[1:]:
-        breaks = breaks_along(best.surface, turn)
+        breaks = breaks_along(rough, turn)
         if best.scatter.correlation <= 0.0 or len(points) < _needed(stations, breaks):
             break
         finer = _finer(points, best, stations, breaks, axis, progress)
