@@ -28,6 +28,8 @@ Progress = Callable[[str], None]
 
 FINEST: Final = 0.002  # mm; flows need not follow the smooth surface closer
 SHARE: Final = 0.5  # of the noise, to which the flows follow the smooth surface
+CLOSEST: Final = 0.1  # of the noise: closer, flows would follow that of the smooth surface
+EXACT: Final = 1e-5  # mm; nor closer than this
 STIFFER: Final = (10.0, 100.0, 1000.0)  # times the weight of smoothness
 DENSE: Final = 401  # places of a section at which the flows are judged
 
@@ -56,7 +58,8 @@ def flows_of(
     smooth: Smooth, lines: BladeLines, tolerance: float, order: Order | None, progress: Progress
 ) -> BladeFit:
     """Fit flows to sections of the smooth surface."""
-    close = float(np.clip(SHARE * smooth.scatter.noise, min(FINEST, tolerance), tolerance))
+    noise = smooth.scatter.noise
+    close = max(min(max(SHARE * noise, FINEST), tolerance), CLOSEST * noise, EXACT)
     progress("fit the flows")
     with threadpool_limits(1):
         try:
