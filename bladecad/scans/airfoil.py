@@ -6,21 +6,22 @@ from dataclasses import dataclass
 from typing import Final, final
 
 import numpy as np
+from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from bladecad.arrays import Mask, Points, Vector, seal
 from bladecad.data.scan import Scan
 from bladecad.errors import DataError
-from bladecad.scans.axis import stacking_axis
 from bladecad.scans.evenly import skin
-from bladecad.scans.height import Height, planes
+from bladecad.scans.height import Height
+from bladecad.scans.located import Located, located
 from bladecad.scans.lonely import lonely
-from bladecad.scans.slabs import Slabs
-from bladecad.scans.span import cut, limits, run
+from bladecad.scans.refusals import refuse_few_or_flat, refuse_several
+from bladecad.scans.skeleton import Skeleton
 
 ENOUGH: Final = 150_000  # points that the airfoil is found from
-FEWEST: Final = 1_500
-MORE: Final = 1.15  # times the points of a usual slab: platform or root, no cut-off corner
+FAR: Final = 0.05  # of the chord: points further from the airfoil are no part of it
+BLOCK: Final = 400_000  # points that are looked at at once
 
 
 @final
@@ -70,15 +71,17 @@ def find_airfoil(
     Parameters
     ----------
     scan : Scan
-        In any pose; cloud or mesh, with or without root, platform, shroud and caps.
+        In any pose; cloud or mesh, with or without root, platform, shroud and caps. Nothing is
+        asked of the triangles of a mesh but where they are.
     axis : (3,) float, optional
         Stacking axis from hub to tip.
     span : (float, float), optional
-        Heights between which it is airfoil, mm.
+        Heights between which it is airfoil, mm: the coordinate along the axis or, if it is not
+        given, along the one found, in the sense in which its largest component is positive.
     height : Height, optional
         Cylinders or cones to cut along; planes across the stacking axis by default.
     partial : bool
-        Take an airfoil that is not closed around.
+        Asked for a scan of one side. None is taken yet: it is refused by what it is.
 
     Raises
     ------
@@ -86,58 +89,57 @@ def find_airfoil(
         If it is no blade, or not one; it tells why.
     """
     with threadpool_limits(1):
-        alone = (
-            np.zeros(len(scan.points), bool) if scan.triangles is not None else lonely(scan.points)
-        )
+        alone, island = _alone(scan)
         points = skin(scan, ENOUGH, ~alone)
-        notes: list[str] = []
-        if height is None:
-            if axis is None:
-                direction, worth = stacking_axis(points)
-                if worth <= 0.0:
-                    raise DataError(
-                        "no direction cuts the scan into slender closed loops: it is no blade"
-                    )
-            else:
-                direction = np.asarray(axis, dtype=np.float64) / np.linalg.norm(axis)
-            height = planes(direction)
-        radius, middle = height.middle(points)
-        flat = height.flat(points, radius, middle)
-        found = cut(flat)
-        taken = run(found)
-        if taken is None:
-            raise DataError("no blade")
-        if axis is None and height.kind == "plane" and _upside_down(found, taken):
-            height = planes(-height.axis)
-            flat = height.flat(points, radius, middle)
-            found = cut(flat)
-            taken = run(found)
-            assert taken is not None
-        low, high, _ = limits(flat, found, taken)
-        if span is not None:
-            low, high = min(span), max(span)
-        h = height(scan.points)
-        inside = (h >= low) & (h <= high) & ~alone
-        up = height.axis if height.kind == "plane" else direction_of(height, scan.points[inside])
-        return Airfoil(scan, height, up, low, high, inside, alone, False, tuple(notes))
+        refuse_few_or_flat(points)
+        if scan.triangles is None:
+            refuse_several(scan.points[~alone], island[~alone])
+        found = located(points, axis=axis, span=span, height=height)
+        inside, far = _inside(scan.points, found, alone)
+    if inside.sum() == 0:
+        raise DataError(
+            f"no point of the scan lies between the heights {found.low:.4g} and {found.high:.4g} mm; "
+            "give another --span"
+        )
+    return Airfoil(
+        scan, found.height, found.axis, found.low, found.high, inside, alone, False,
+        (*found.notes, *_said(scan, found, alone, far)),
+    )  # fmt: skip
 
 
-def direction_of(height: Height, points: Points) -> Vector:
-    """Which way the height grows in the middle of points."""
-    middle = points.mean(axis=0)
-    step = 1e-4 * float(np.ptp(points, axis=0).max())
-    grown = np.array([height((middle + step * e)[None])[0] for e in np.eye(3)])
-    d = grown - height(middle[None])[0]
-    return np.asarray(d / np.linalg.norm(d))
+def _alone(scan: Scan) -> tuple[Mask, NDArray[np.int64]]:
+    if scan.triangles is None:
+        return lonely(scan.points)
+    return np.zeros(len(scan.points), bool), np.zeros(len(scan.points), np.int64)
 
 
-def _upside_down(found: Slabs, taken: Mask) -> bool:
-    """Whether the hub is at the upper end: the root or platform, else the larger section."""
-    which = np.flatnonzero(taken)
-    first, last = which[0], which[-1]
-    mean = float(np.median(found.count[which]))
-    more = np.where(found.count > MORE * mean, found.count, 0.0) / mean
-    below, above = more[:first].sum(), more[last + 1 :].sum()
-    if max(below, above) > 4.0:
-        return bool(above > below)
-    return bool(found.area[last] > found.area[first])
+def _inside(points: Points, found: Located, alone: Mask) -> tuple[Mask, int]:
+    """Which points are airfoil, and how many at its heights are far from it."""
+    inside = np.zeros(len(points), bool)
+    far = 0
+    for first in range(0, len(points), BLOCK):
+        block = slice(first, first + BLOCK)
+        h = found.height(points[block])
+        at = np.flatnonzero((h >= found.low) & (h <= found.high) & ~alone[block])
+        near = _near(found.flat(points[block][at]), found.shape)
+        inside[first + at[near]] = True
+        far += int((~near).sum())
+    return inside, far
+
+
+def _near(flat: Points, shape: Skeleton) -> Mask:
+    X, across, half, chord = shape.off(flat)
+    return np.asarray((np.abs(across) < half + FAR * chord) & (np.abs(X - 0.5) < 0.5 + FAR))
+
+
+def _said(scan: Scan, found: Located, alone: Mask, far: int) -> tuple[str, ...]:
+    notes = []
+    if alone.any():
+        notes.append(f"{alone.sum()} points stand alone, away from all others; left out")
+    if far:
+        what = "vertices" if scan.triangles is not None else "points"
+        notes.append(
+            f"{far} {what} at the heights of the airfoil are further than {FAR:.0%} of the chord "
+            "from it; left out"
+        )
+    return tuple(notes)

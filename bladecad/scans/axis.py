@@ -10,8 +10,8 @@ from bladecad.arrays import Points, Vector
 from bladecad.scans.height import planes
 from bladecad.scans.slabs import Slabs, alike, longest_run, slabs
 
-DIRECTIONS: Final = 150  # over the half sphere: none is more than 9 degrees away
-FEW: Final = 6_000  # points on which all of them are tried
+DIRECTIONS: Final = 120  # over the half sphere: none is more than 10 degrees away
+FEW: Final = 5_000  # points on which all of them are tried
 MANY: Final = 24_000  # on which the best are refined
 STARTS: Final = 4
 COARSE: Final = 20  # slabs over the whole scan
@@ -20,6 +20,8 @@ APART: Final = np.cos(np.radians(20.0))  # starts are further from each other
 CHANGES: Final = (0.12, 0.25)  # of ln chord and ln area from slab to slab
 STEADY: Final = 0.04  # change of ln chord that halves the worth of a slab
 ROUNDS: Final = 5
+KEPT: Final = 0.8  # of its worth: a direction that loses more has gone astray
+STILL: Final = 1e-6  # less 1, cosine of the last turn: 0.08 degrees
 
 
 def stacking_axis(points: Points) -> tuple[Vector, float]:
@@ -56,18 +58,18 @@ def _starts(tried: Points, worths: Vector) -> list[Vector]:
 
 def _refined(points: Points, axis: Vector) -> tuple[Vector, float]:
     """Turn a direction to the line through the centres of the sections, until it stays."""
-    worth = _worth(_cut(points, axis, FINE), len(points))
+    found = _cut(points, axis, FINE)
+    worth = _worth(found, len(points))
     for _ in range(ROUNDS):
-        found = _cut(points, axis, FINE)
         line = _line(found, axis)
         if line is None:
             break
-        new = _worth(_cut(points, line, FINE), len(points))
-        if new < 0.8 * worth:
+        new = _cut(points, line, FINE)
+        if _worth(new, len(points)) < KEPT * worth:
             break
         moved = 1.0 - abs(float(line @ axis))
-        axis, worth = line, new
-        if moved < 1e-7:
+        axis, found, worth = line, new, _worth(new, len(points))
+        if moved < STILL:
             break
     return axis, worth
 

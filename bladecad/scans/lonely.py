@@ -34,31 +34,38 @@ def spacing(points: Points) -> float:
     return float(edge * np.sqrt(len(np.unique(keys)) / 1.5 / len(points)))
 
 
-def lonely(points: Points) -> Mask:
-    """Find the isolated points of a cloud, (k,).
+def lonely(points: Points) -> tuple[Mask, Cells]:
+    """Find the isolated points of a cloud.
 
-    Islands of cells that touch no others and hold few points, and single points whose neighbours
-    are five times further away than is usual for these.
+    Returns
+    -------
+    lonely : (k,) bool
+        Points on islands of cells that touch no others and hold few points, and single points
+        whose neighbours are five times further away than is usual for these.
+    island : (k,) int
+        Number of the island of every point, the one with most points 0.
     """
     size = float(np.linalg.norm(np.ptp(points, axis=0)))
     edge = max(CELL * spacing(points), size / FINEST)
     keys, strides = _cells(points, edge)
     cells, number, count = np.unique(keys, return_inverse=True, return_counts=True)
-    out = (_islands(cells, count, strides) | False)[number]
+    island, held = _islands(cells, count, strides)
+    out = (held < SMALL * len(points))[island][number]
     thin = np.flatnonzero((count[number] <= FEW) & ~out)
     if len(thin):
         out[thin] = _apart(points, out, keys, cells, strides, thin)
-    return np.asarray(out)
+    return np.asarray(out), island[number]
 
 
-def _islands(cells: Cells, count: Cells, strides: Cells) -> Mask:
-    """Cells that belong to islands with few points."""
+def _islands(cells: Cells, count: Cells, strides: Cells) -> tuple[Cells, Cells]:
+    """Island of every cell, the largest first, and how many points each island holds."""
     pairs = [(a, b) for a, b in (_beside(cells, strides, d) for d in HALF)]
     rows, columns = (np.concatenate([p[i] for p in pairs]) for i in (0, 1))
     graph = coo_matrix((np.ones(len(rows), np.int8), (rows, columns)), shape=(len(cells),) * 2)
     _, island = connected_components(graph, directed=False)
     held = np.bincount(island, count)
-    return np.asarray((held < SMALL * count.sum())[island])
+    order = np.argsort(-held, kind="stable")
+    return np.argsort(order)[island], held[order]
 
 
 def _apart(

@@ -14,10 +14,15 @@ from bladecad.scans.smooth import periodic, smooth
 DENSE: Final = 1920  # points of a loop between which it is straight
 FAR: Final = 0.06  # of the length of the loop: points beyond are none of it
 
+REST: Final = 0.25  # of the noise, rms, that a loop may be moved by to be smoother
+STIFFER: Final = (1e-4, 1e-3, 1e-2, 1e-1, 1.0, 10.0)
+
 Tips = tuple[tuple[Vector, float], tuple[Vector, float]]
 
 
-def renewed(loop: Points, tips: Tips, q: Points, lift: Vector) -> Points:
+def renewed(
+    loop: Points, tips: Tips, q: Points, lift: Vector, noise: float, stiff: float
+) -> tuple[Points, float]:
     """Move a loop along its normals to where the points are, smoothly.
 
     Parameters
@@ -28,6 +33,13 @@ def renewed(loop: Points, tips: Tips, q: Points, lift: Vector) -> Points:
         The edges.
     q, lift : (k, 2) and (k,) float
         Points, and their height over the section.
+    noise, stiff : float
+        Of the points, mm; least weight of smoothness.
+
+    Returns
+    -------
+    loop, noise
+        The loop, moved, and what the points stand off it, mm.
     """
     run = _run(loop)
     places = tuple(float(run[_nearest(loop, tip)]) for tip, _ in tips)
@@ -35,7 +47,7 @@ def renewed(loop: Points, tips: Tips, q: Points, lift: Vector) -> Points:
     x, number = graded(float(run[-1]), (places[0], places[1]), radii, 4 * DENSE)
     count = int(np.clip(number[-1], 60, 200))
     w = np.interp(run[:-1], x, number) / number[-1]
-    c = _laid(loop, w, count)
+    c = _laid(loop, w, count, REST * noise)
     even = np.arange(DENSE) / DENSE
     base = periodic(even, count) @ c
     T = np.roll(base, -1, axis=0) - np.roll(base, 1, axis=0)
@@ -43,18 +55,23 @@ def renewed(loop: Points, tips: Tips, q: Points, lift: Vector) -> Points:
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
     at, off = _feet(base, normal, q)
     near = np.abs(off) < FAR * run[-1]
-    f = smooth(at[near], lift[near], off[near], count)
-    return np.asarray(base + f(even)[:, None] * normal)
+    f = smooth(at[near], lift[near], off[near], count, stiff)
+    return np.asarray(base + f(even)[:, None] * normal), f.noise
 
 
-def _laid(loop: Points, w: Vector, count: int) -> Array:
-    """Coefficients of the smooth line nearest to a loop, (count, 2)."""
+def _laid(loop: Points, w: Vector, count: int, rest: float) -> Array:
+    """Coefficients of the smoothest line that a loop stays near, (count, 2)."""
     B = periodic(w, count)
-    G = (B.T @ B).toarray()
+    G, r = (B.T @ B).toarray(), np.asarray(B.T @ loop)
     D = np.roll(np.eye(count), -1, axis=0) - np.eye(count)
-    D = D @ D @ D
-    G += 3e-3 * np.trace(G) / count * D.T @ D
-    return np.asarray(np.linalg.solve(G, B.T @ loop))
+    P = np.trace(G) / count * np.linalg.matrix_power(D, 3).T @ np.linalg.matrix_power(D, 3)
+    c = np.linalg.solve(G + STIFFER[0] * P, r)
+    for weight in STIFFER[1:]:
+        new = np.linalg.solve(G + weight * P, r)
+        if np.sqrt(np.mean(np.sum((loop - B @ new) ** 2, axis=1))) > rest:
+            break
+        c = new
+    return np.asarray(c)
 
 
 def _feet(base: Points, normal: Points, q: Points) -> tuple[Vector, Vector]:

@@ -11,7 +11,9 @@ from bladecad.arrays import Array, Mask, Points, Vector, seal
 from bladecad.scans.slabs import Slabs
 
 ALONG: Final = 6  # degree of camber and thickness over the chord
-UP: Final = 3  # degrees over the height: of chord, camber and thickness
+UP: Final = 4  # degree of both over the height
+EDGES: Final = 6  # degree of the ends of the chord over the height
+BEYOND: Final = 1.06  # share of the height up to which polynomials are trusted
 ROUNDS: Final = 4
 MAD: Final = 1.4826
 CLEAR: Final = 3.0  # times the usual misfit: points beyond count little
@@ -26,9 +28,9 @@ class Skeleton:
     """Where the chord of an airfoil lies at each height, and the loop about it.
 
     low, high : mm, heights between which it was found
-    edges     : (4, 4) float; Legendre coefficients over the height, of x and y of both chord ends
-    camber    : (7, 4) float; Y over the chord and the height, as a share of the chord
-    thickness : (7, 4) float; half of it, over sqrt(X (1 - X))
+    edges     : (7, 4) float; Legendre coefficients over the height, of x and y of both chord ends
+    camber    : (7, 5) float; Y over the chord and the height, as a share of the chord
+    thickness : (7, 5) float; half of it, over sqrt(X (1 - X))
     misfit    : mm, usual distance of the points from the loop
     """
 
@@ -41,16 +43,16 @@ class Skeleton:
 
     def __post_init__(self) -> None:
         shape = (ALONG + 1, UP + 1)
-        seal(self, edges=(UP + 1, 4), camber=shape, thickness=shape)
+        seal(self, edges=(EDGES + 1, 4), camber=shape, thickness=shape)
 
     def share(self, height: Vector) -> Vector:
-        """Heights as -1 .. 1 between low and high, not far beyond."""
+        """Heights as -1 .. 1 between low and high, hardly beyond."""
         share = 2.0 * (np.asarray(height) - self.low) / (self.high - self.low) - 1.0
-        return np.asarray(np.clip(share, -1.3, 1.3))
+        return np.asarray(np.clip(share, -BEYOND, BEYOND))
 
     def frame(self, height: Vector) -> tuple[Array, Array]:
         """Begin of the chord, and the chord as a vector, (k, 2) each, mm."""
-        ends = legendre(self.share(height), UP) @ self.edges
+        ends = legendre(self.share(height), EDGES) @ self.edges
         return ends[:, :2], ends[:, 2:] - ends[:, :2]
 
     def place(self, flat: Points) -> tuple[Vector, Vector, Vector]:
@@ -85,7 +87,9 @@ def skeleton(flat: Points, found: Slabs, taken: Mask) -> Skeleton:
     low, high = float(found.borders[which[0]]), float(found.borders[which[-1] + 1])
     share = 2.0 * (found.heights[which] - low) / (high - low) - 1.0
     ends = _one_way(found.edges[which]).reshape(-1, 4)
-    edges = robust(legendre(share, UP), ends)
+    degree = min(EDGES, len(which) // 3)
+    edges = np.zeros((EDGES + 1, 4))
+    edges[: degree + 1] = robust(legendre(share, degree), ends)
     empty = np.zeros((ALONG + 1, UP + 1))
     start = Skeleton(low, high, edges, empty, empty, 0.0)
     inside = flat[(flat[:, 2] > low) & (flat[:, 2] < high)]
@@ -98,15 +102,15 @@ def _to_tips(shape: Skeleton, flat: Points) -> Skeleton:
     X, across, half, chord = shape.off(flat)
     share = shape.share(flat[:, 2])
     on = np.abs(across) < half + np.maximum(0.02 * chord, 5.0 * shape.misfit)
-    bins = int(np.clip(on.sum() // TIP_POINTS, 2 * (UP + 1), 40))
+    bins = int(np.clip(on.sum() // TIP_POINTS, 2 * (EDGES + 1), 40))
     number = np.clip(((share + 1.0) / 2.0 * bins).astype(np.int64), 0, bins - 1)
     found = [X[on & (number == k)] for k in range(bins)]
     there = np.array([len(x) > 20 for x in found])
-    at = legendre((np.arange(bins) + 0.5) / bins * 2.0 - 1.0, UP)[there]
+    at = legendre((np.arange(bins) + 0.5) / bins * 2.0 - 1.0, EDGES)[there]
     reach = [[np.partition(x, 2)[2], np.partition(x, -3)[-3]] for x in found if len(x) > 20]
     c = robust(at, np.array(reach))
     many = np.linspace(-1.0, 1.0, 60)
-    A = legendre(many, UP)
+    A = legendre(many, EDGES)
     start, along = shape.frame(0.5 * (many + 1.0) * (shape.high - shape.low) + shape.low)
     up = np.stack([-along[:, 1], along[:, 0]], axis=1)
     ends = []
@@ -148,7 +152,7 @@ def legendre(x: Vector, degree: int) -> Array:
 
 
 def tensor(X: Vector, share: Vector) -> Array:
-    """Products of polynomials over the chord and over the height, (k, 7 * 4)."""
+    """Products of polynomials over the chord and over the height, (k, 7 * 5)."""
     A, B = legendre(2.0 * X - 1.0, ALONG), legendre(share, UP)
     return np.asarray((A[:, :, None] * B[:, None, :]).reshape(len(A), -1))
 

@@ -8,6 +8,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from bladecad.arrays import Points, Vector
+from bladecad.curves.plausible import first_crossing
 from bladecad.data.sections import Section, Sections, Source
 from bladecad.errors import DataError
 from bladecad.scans.airfoil import Airfoil
@@ -26,7 +27,8 @@ FEWEST: Final = 10  # points that a circle is laid through
 WITHIN: Final = (0.25, 1.5)  # times the radius of the rough shape
 BENT: Final = 8.0  # radii over which the inner line is bent to the centre of the edge
 RADII: Final = (0.0015, 0.06)  # of the chord, between which an edge radius must lie
-LINE: Final = 400
+LINE: Final = 480
+STIFF: Final = (1.0, 1e2, 1e4)  # least weights of smoothness that are tried
 OUTLINE: Final = 320  # points of a loop
 
 
@@ -161,6 +163,19 @@ def outline(shape: Skeleton, height: float) -> Points:
 
 
 def _loop(q: Points, lift: Vector, inner: Capsule, rough: Points) -> Points:
+    """The loop through points, stiffer if it would cross itself; at worst the rough shape."""
+    for stiff in STIFF:
+        loop = _laid_round(q, lift, inner, rough, stiff)[:: DENSE // OUTLINE]
+        if first_crossing(loop, True) is None and _size(loop) < 1.2 * _size(rough):
+            return loop
+    return rough[:: len(rough) // OUTLINE]
+
+
+def _size(loop: Points) -> float:
+    return float(np.linalg.norm(np.ptp(loop, axis=0)))
+
+
+def _laid_round(q: Points, lift: Vector, inner: Capsule, rough: Points, stiff: float) -> Points:
     """First as distances from the inner line, then as distances from the loop itself."""
     along, away = inner.place(q)
     at, usual = inner.place(rough)
@@ -169,14 +184,15 @@ def _loop(q: Points, lift: Vector, inner: Capsule, rough: Points) -> Points:
     x, run = inner.warp()
     period = float(x[-1])
     expected = np.interp(along, at, usual, period=period)
-    f = smooth(np.interp(along, x, run) / run[-1], lift, away - expected, _knots(run[-1]))
+    number = np.interp(along, x, run) / run[-1]
+    f = smooth(number, lift, away - expected, _knots(run[-1]), stiff)
     w = np.linspace(0.0, 1.0, DENSE, endpoint=False)
     places = np.interp(w * run[-1], run, x)
     loop = inner.back(places, f(w) + np.interp(places, at, usual, period=period))
-    tips = inner.tips
+    noise = f.noise
     for _ in range(2):
-        loop = renewed(loop, tips, q, lift)
-    return loop[:: DENSE // OUTLINE]
+        loop, noise = renewed(loop, inner.tips, q, lift, noise, stiff)
+    return loop
 
 
 def _knots(run: float) -> int:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Final, final
 
 import numpy as np
-from scipy.linalg import eigh
+from scipy.linalg import eigh, solve
 from scipy.sparse import csr_matrix
 
 from bladecad.arrays import Array, Vector, seal
@@ -15,10 +15,11 @@ ORDER: Final = 2  # of the differences of coefficients that are kept small
 STILL: Final = 0.1  # and these themselves, against their differences
 HELD: Final = 0.02  # weight of both, as a share of the points
 SLOPES: Final = 16  # functions for the change with the height
-ROUNDS: Final = 4
+ROUNDS: Final = 3
 CLEAR: Final = 2.5  # times the usual residual: values beyond count little
 GRID: Final = np.logspace(-2.0, 6.0, 33)  # weights of smoothness that are tried
 TENSION: Final = 0.05  # of first against second differences: no overshoot where points are missing
+COST: Final = 1.2  # of a freedom, in cross-validation: a little smoother than best
 MAD: Final = 1.4826
 
 
@@ -46,7 +47,7 @@ class Smooth:
         return np.asarray(periodic(w, len(self.coefficients)) @ self.coefficients)
 
 
-def smooth(w: Vector, lift: Vector, y: Vector, count: int) -> Smooth:
+def smooth(w: Vector, lift: Vector, y: Vector, count: int, stiff: float = 1.0) -> Smooth:
     """Fit y = f(w) + lift g(w), f as smooth as generalised cross-validation says, g coarse.
 
     Parameters
@@ -58,6 +59,8 @@ def smooth(w: Vector, lift: Vector, y: Vector, count: int) -> Smooth:
     y : (k,) float
     count : int
         Coefficients of f.
+    stiff : float
+        Least weight of smoothness, times the usual.
     """
     B, C = periodic(w, count), periodic(w, SLOPES)
     A = _beside(B, C.multiply(lift[:, None]).tocsr())
@@ -65,9 +68,10 @@ def smooth(w: Vector, lift: Vector, y: Vector, count: int) -> Smooth:
     penalty[:count, :count] = _roughness(count, ORDER) + TENSION * _roughness(count, 1)
     held = np.zeros_like(penalty)
     held[count:, count:] = _roughness(SLOPES, 1) + STILL * np.eye(SLOPES)
-    weight = np.ones(len(y))
+    weight, lam = np.ones(len(y)), None
     for k in range(ROUNDS):
-        c, freedom = _cross_validated(A, y, weight, penalty, held)
+        chosen = stiff * GRID if k in (0, ROUNDS - 1) else np.array([lam])
+        c, freedom, lam = _cross_validated(A, y, weight, penalty, held, chosen)
         off = np.abs(y - A @ c)
         noise = MAD * float(np.median(off))
         if k < ROUNDS - 1:
@@ -92,26 +96,23 @@ def periodic(w: Vector, count: int) -> csr_matrix:
 
 
 def _cross_validated(
-    A: csr_matrix, y: Vector, weight: Vector, P: Array, held: Array
-) -> tuple[Vector, float]:
+    A: csr_matrix, y: Vector, weight: Vector, P: Array, held: Array, grid: Vector
+) -> tuple[Vector, float, float]:
     """Penalised least squares whose weight of smoothness predicts left-out values best."""
     W = A.multiply(weight[:, None]).tocsr()
     G, r, yy = (A.T @ W).toarray(), np.asarray(W.T @ y), float(weight @ y**2)
     scale = np.trace(G) / np.trace(P)
     G += HELD * len(y) / SLOPES * held
     G0 = G + 1e-9 * scale * P + 1e-13 * np.trace(G) / len(G) * np.eye(len(G))
+    if len(grid) == 1:
+        return np.asarray(solve(G0 + grid[0] * scale * P, r, assume_a="pos")), 0.0, grid[0]
     e, V = eigh(P * scale, G0)
     b, n = V.T @ r, float(weight.sum())
-    e = np.maximum(e, 0.0)
-    best, chosen, freedom = np.inf, GRID[-1], 0.0
-    for grid in GRID:
-        shrink = 1.0 / (1.0 + grid * e)
-        left = yy - float(np.sum(b**2 * shrink * (2.0 - shrink)))
-        df = float(shrink.sum())
-        score = max(left, 0.0) / max(n - 1.2 * df, 1e-3 * n) ** 2
-        if score < best:
-            best, chosen, freedom = score, grid, df
-    return V @ (b / (1.0 + chosen * e)), freedom
+    shrink = 1.0 / (1.0 + grid[:, None] * np.maximum(e, 0.0))
+    left = yy - (shrink * (2.0 - shrink)) @ b**2
+    df = shrink.sum(axis=1)
+    best = int(np.argmin(np.maximum(left, 0.0) / np.maximum(n - COST * df, 1e-3 * n) ** 2))
+    return V @ (b * shrink[best]), float(df[best]), float(grid[best])
 
 
 def _roughness(count: int, order: int) -> Array:

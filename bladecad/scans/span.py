@@ -5,10 +5,13 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bladecad.arrays import Array, Mask, Points, Vector
 from bladecad.scans.skeleton import Skeleton, legendre, robust, skeleton
 from bladecad.scans.slabs import Slabs, alike, longest_run, slabs
+
+Counts = NDArray[np.int64]
 
 A_SLAB: Final = 1_200  # points, where there are enough
 SLABS: Final = (30, 120)  # over the scan
@@ -24,7 +27,13 @@ NEAR: Final = 0.25  # of the half thickness: points that lie on the airfoil
 OFF: Final = 0.004  # of the chord, as well
 RIM: Final = 3  # degree of the rim along the chord
 MORE: Final = 1.15  # times the points of a usual slab: a platform or a root
-RETREAT: Final = 0.7  # slabs left out beside a fillet
+RETREAT: Final = 0.1  # slabs left out beside a fillet
+CLEAR_OF_EDGES: Final = 0.03  # of the chord, where the rough shape tells no fillet
+SEVERAL: Final = 4  # cells that must have left it
+FULL: Final = 6  # points of a cell whose median counts
+THICKER: Final = 6.0  # times the scatter, by which a cell leaves its trend
+GROWN: Final = 0.03  # of the half thickness, at least
+TILT: Final = 0.06  # of the rise of a rim: what it may be misjudged by
 HOLE: Final = 2.0  # slabs by which a rim that has a hole dips
 INSET: Final = 0.002  # of the span, left out at a rim
 
@@ -97,29 +106,76 @@ def limits(flat: Points, found: Slabs, taken: Mask) -> tuple[float, float, Skele
     on = np.abs(np.abs(across) - half) <= NEAR * half + 3.0 * shape.misfit + OFF * chord
     on &= (X > 0.0) & (X < 1.0)
     cell = np.clip((X * CELLS).astype(np.int64), 0, CELLS - 1) + CELLS * (across > 0.0)
-    h, usual = flat[:, 2], float(np.median(found.count[taken]))
     which = np.flatnonzero(taken)
-    beyond = found.count[: which[0]], found.count[which[-1] + 1 :]
     ends = []
-    for way, border, more in ((-1.0, shape.low, beyond[0]), (1.0, shape.high, beyond[1])):
-        if (more > MORE * usual).sum() > 2:  # a root or a platform: none of its fillet
-            ends.append(way * border - RETREAT * step)
-            continue
-        near = on & (way * (h - border) < step) & (way * (h - border) > -8.0 * step)
-        rim = _rim(way * h[near], cell[near], step)
-        ends.append(way * border if rim is None else min(rim, way * border + step))
-    low, high = -ends[0], ends[1]
-    inset = INSET * (high - low)
-    return low + inset, high - inset, shape
+    for way, last in ((-1, which[0]), (1, which[-1])):
+        border = float(way * found.borders[last + (way > 0)])
+        h = way * flat[:, 2] - border
+        beyond = found.count[:last] if way < 0 else found.count[last + 1 :]
+        if (beyond > MORE * float(np.median(found.count[taken]))).sum() > 2:
+            near = (np.abs(h) < 20.0 * step) & (np.abs(across) < 3.0 * half + OFF * chord)
+            near &= (X > CLEAR_OF_EDGES) & (X < 1.0 - CLEAR_OF_EDGES)
+            thick = (np.abs(across) - half)[near]
+            ends.append(
+                border + _fillet(h[near] / step, thick, cell[near], float(np.median(half))) * step
+            )
+        else:
+            near = on & (h < step) & (h > -8.0 * step)
+            rim, slope = _rim(h[near], cell[near], step)
+            ends.append(border + min(rim, step) - TILT * slope)
+    inset = INSET * (ends[0] + ends[1])
+    return inset - ends[0], ends[1] - inset, shape
 
 
-def _rim(height: Vector, cell: Vector, step: float) -> float | None:
-    """Lowest place of the upper rim, but for holes; None where there are too few points."""
+def _fillet(height: Vector, thick: Vector, cell: Counts, usual: float) -> float:
+    """Where a fillet begins, in slabs over the border: a cell grows thicker than its trend."""
+    slab = np.floor(height).astype(np.int64) + 20
+    keys = cell * 40 + slab
+    order = np.argsort(keys, kind="stable")
+    cells, firsts, counts = np.unique(keys[order], return_index=True, return_counts=True)
+    middle = np.full((2 * CELLS, 40), np.nan)
+    for key, first, count in zip(cells, firsts, counts, strict=True):
+        if count >= FULL:
+            middle[divmod(int(key), 40)] = np.median(thick[order[first : first + count]])
+    below = np.arange(2, 17)
+    inner = middle[:, below]
+    rows = np.isfinite(inner).sum(axis=1) >= 10
+    if not rows.any():
+        return -RETREAT
+    off = np.array([_off_trend(row) for row in middle[rows]])
+    own = 1.4826 * np.nanmedian(np.abs(off[:, below]), axis=1, keepdims=True)
+    bound = np.maximum(THICKER * np.maximum(own, np.median(own)), GROWN * usual)
+    share = off / bound
+    share[np.isnan(share)] = np.inf
+    inwards = share[np.isfinite(off[:, 20]), 22:1:-1]  # from beyond the border
+    inwards = inwards[(inwards > 1.0).all(axis=1, where=np.arange(21) < 2)]
+    first = np.argmin(inwards > 1.0, axis=1)  # the first that is as it should be
+    ends = [_crossing(row, k) for row, k in zip(inwards, first, strict=True)]
+    begin = 2.5 - sorted(ends)[-min(SEVERAL, len(ends))] if ends else 0.0
+    return min(begin, 0.0) - RETREAT
+
+
+def _crossing(inwards: Vector, k: int) -> float:
+    """Between values k - 1, over 1, and k, under 1: where 1 is crossed."""
+    over, under = inwards[k - 1], inwards[k]
+    return float(k - (1.0 - under) / (over - under)) if np.isfinite(over) else float(k)
+
+
+def _off_trend(row: Vector) -> Vector:
+    """How far the values of a cell are off the parabola through its inner ones."""
+    k = np.arange(40.0)
+    inner = np.isfinite(row) & (k >= 2) & (k < 17)
+    A = ((k - 10.0) / 10.0)[:, None] ** np.arange(3.0)
+    return np.asarray(row - A @ robust(A[inner], row[inner]))
+
+
+def _rim(height: Vector, cell: Counts, step: float) -> tuple[float, float]:
+    """Lowest place of the upper rim, but for holes, and how much it rises from there."""
     top = np.full(2 * CELLS, -np.inf)
     np.maximum.at(top, cell, height)
     there = np.isfinite(top)
     if there.sum() < CELLS:
-        return None
+        return 0.0, 0.0
     place = (np.arange(CELLS) + 0.5) / CELLS * 2.0 - 1.0
     A = np.kron(np.eye(2), legendre(place, RIM))
     low = there.copy()
@@ -128,4 +184,5 @@ def _rim(height: Vector, cell: Vector, step: float) -> float | None:
         off = top - A @ c
         low = there & (off > -max(4.0 * float(np.median(np.abs(off[low]))), HOLE * step))
     corners = np.kron(np.eye(2), legendre(np.array([-1.0, 1.0]), RIM)) @ c
-    return float(min(top[low].min(), corners.min()))
+    lowest, highest = min(top[low].min(), corners.min()), max(top[low].max(), corners.max())
+    return float(lowest), float(highest - lowest)
