@@ -78,7 +78,7 @@ def solve_joint(
         w = np.sqrt(np.concatenate(weights))[:, None]
         Phi, Y = Phi * w, Y * w
     scale = 1.0 / np.linalg.norm(Phi, axis=0)
-    B = _unit_rows(edge_conditions(S, P, le, te) * scale)
+    B = unit_rows(edge_conditions(S, P, le, te) * scale)
     N = null_space(B) if len(B) else np.eye(len(scale))
     U, s, Vt = svd((Phi * scale) @ N, full_matrices=False)
     kept = s > SMALLEST * s[0]
@@ -93,6 +93,6 @@ def solve_joint(
     )
 
 
-def _unit_rows(B: Array) -> Array:
+def unit_rows(B: Array) -> Array:
     """Orthonormal rows with the same null space, so that B B^T = 1."""
     return np.asarray(qr(B.T, mode="economic")[0].T) if len(B) else B

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.linalg import block_diag, lstsq, null_space, svd
 
 from bladecad.arrays import Array, Vector, seal
-from bladecad.fit.joint import edge_conditions
+from bladecad.fit.joint import edge_conditions, unit_rows
 from bladecad.fit.sidefit import SideFit
 from bladecad.scans.local import Splines
 from bladecad.surface.blade import BladeSurface
@@ -71,11 +71,12 @@ def freedom(surface: BladeSurface, in_t: Splines, axis: Vector) -> Freedom:
     t = graded(PLACES)
     Phi = block_diag(S(t), P(t))
     scale = 1.0 / np.linalg.norm(Phi, axis=0)
-    B = edge_conditions(S, P, surface.le, surface.te) * scale
-    N = null_space(B / np.linalg.norm(B, axis=1, keepdims=True)) if len(B) else np.eye(len(scale))
+    B = unit_rows(edge_conditions(S, P, surface.le, surface.te) * scale)
+    N = null_space(B) if len(B) else np.eye(len(scale))
     U, s, Vt = svd((Phi * scale) @ N, full_matrices=False)
     kept = s > TOLD_APART * s[0]
-    own = scale[:, None] * (N @ (Vt[kept].T / s[kept]))
+    ways = N @ (Vt[kept].T / s[kept])
+    own = scale[:, None] * (ways - B.T @ (B @ ways))  # rounding, divided by small s, taken off
     local = _in_local(in_t, t, U[:, kept])
     axes = np.linalg.svd(np.asarray(axis)[None])[2][1:]
     halves = Pair(own[: S.size], own[S.size :])

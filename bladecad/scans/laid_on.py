@@ -10,7 +10,7 @@ from scipy.linalg import block_diag, lstsq, null_space
 from bladecad.arrays import Vector
 from bladecad.curves.sides import BladeLines
 from bladecad.data.sections import Section, Sections, Source
-from bladecad.fit.joint import edge_conditions
+from bladecad.fit.joint import edge_conditions, unit_rows
 from bladecad.fit.sidefit import Basis, SideFit
 from bladecad.scans.local import Splines
 from bladecad.surface.blade import BladeSurface
@@ -46,8 +46,8 @@ def laid_on(surface: BladeSurface, bases: tuple[Basis, Basis], nodes: Vector) ->
     curves = [surface(s, nodes, t).transpose(1, 0, 2).reshape(len(t), -1) for s in SIDES]
     Phi = block_diag(S(t), P(t))
     scale = 1.0 / np.linalg.norm(Phi, axis=0)
-    B = edge_conditions(S, P, surface.le, surface.te) * scale
-    N = null_space(B / np.linalg.norm(B, axis=1, keepdims=True)) if len(B) else np.eye(len(scale))
+    B = unit_rows(edge_conditions(S, P, surface.le, surface.te) * scale)
+    N = null_space(B) if len(B) else np.eye(len(scale))
     C = scale[:, None] * (N @ lstsq((Phi * scale) @ N, np.concatenate(curves), cond=1e-10)[0])
     C = C.reshape(len(C), len(nodes), 3).transpose(1, 0, 2)
     sides = SideFit((S,), C[:, : S.size]), SideFit((P,), C[:, S.size :])
