@@ -1,1 +1,1 @@
-"""From a scan to a surface: the airfoil is found, cut into sections, and fitted to all its points."""
+"""From a scan to a surface: the airfoil found, cut into sections, fitted to all its points."""

@@ -98,8 +98,8 @@ def find_airfoil(
         inside, far = _inside(scan.points, found, alone)
     if inside.sum() == 0:
         raise DataError(
-            f"no point of the scan lies between the heights {found.low:.4g} and {found.high:.4g} mm; "
-            "give another --span"
+            f"no point of the scan lies between the heights {found.low:.4g} and "
+            f"{found.high:.4g} mm; give another --span"
         )
     return Airfoil(
         scan, found.height, found.axis, found.low, found.high, inside, alone, False,

@@ -16,6 +16,7 @@ MANY: Final = 24_000  # on which the best are refined
 STARTS: Final = 4
 COARSE: Final = 20  # slabs over the whole scan
 FINE: Final = 40
+ASTRAY: Final = 8  # power of the cosine between the centres and a direction they leave
 APART: Final = np.cos(np.radians(20.0))  # starts are further from each other
 CHANGES: Final = (0.12, 0.25)  # of ln chord and ln area from slab to slab
 STEADY: Final = 0.04  # change of ln chord that halves the worth of a slab
@@ -59,19 +60,17 @@ def _starts(tried: Points, worths: Vector) -> list[Vector]:
 def _refined(points: Points, axis: Vector) -> tuple[Vector, float]:
     """Turn a direction to the line through the centres of the sections, until it stays."""
     found = _cut(points, axis, FINE)
-    worth = _worth(found, len(points))
+    worth, along = _worth(found, len(points)), 0.0
     for _ in range(ROUNDS):
         line = _line(found, axis)
-        if line is None:
+        along = abs(float(line @ axis)) if line is not None else 0.0
+        if line is None or 1.0 - along < STILL:
             break
         new = _cut(points, line, FINE)
         if _worth(new, len(points)) < KEPT * worth:
             break
-        moved = 1.0 - abs(float(line @ axis))
         axis, found, worth = line, new, _worth(new, len(points))
-        if moved < STILL:
-            break
-    return axis, worth
+    return axis, worth * along**ASTRAY
 
 
 def _line(found: Slabs, axis: Vector) -> Vector | None:

@@ -32,7 +32,7 @@ def skin(scan: Scan, count: int, usable: Mask, inside: Mask | None = None) -> Po
         which = np.flatnonzero(usable)
         if len(which) > count:
             which = rng.choice(which, count, replace=False)
-        return scan.points[rng.permutation(which)]
+        return np.asarray(scan.points[rng.permutation(which)])
     corners = scan.points[scan.triangles[usable[scan.triangles].any(axis=1)]]
     area = 0.5 * np.linalg.norm(
         np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1

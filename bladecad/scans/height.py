@@ -22,7 +22,7 @@ class Height:
 
     kind       : "plane", "cylinder" or "cone"
     axis       : (3,) float, unit; for planes the stacking axis from hub to tip, else the machine's
-    origin     : (3,) float, mm, on the axis; planes are counted from it, cones have their apex in it
+    origin     : (3,) float, mm, on the axis; planes are counted from it, it is the apex of cones
     half_angle : of the cones, the angle between axis and cone, radians; 0 else
 
     A height is the distance from the origin along the axis; from the axis; or from the cone through

@@ -16,10 +16,11 @@ from bladecad.arrays import Mask, Points
 CELL: Final = 6.0  # times the usual spacing: thin cover of an edge, a ninth of the usual, holds on
 SAMPLE: Final = 100_000  # points that the spacing is found from
 SMALL: Final = 0.01  # of the points: islands with fewer are no part of the blade
-FEW: Final = 3  # points of a cell that are looked at one by one
+PORE: Final = 3.0  # times the spacing: cells in which single points are looked for
+FEW: Final = 2  # points of such a cell that are looked at one by one
 NEIGHBOURS: Final = 4
-FAR: Final = 5.0  # times the distance that is usual about the neighbours
-FINEST: Final = 1_000  # cells over the size, at most
+FAR: Final = 4.0  # times the distance that is usual about the neighbours
+FINEST: Final = 6_000  # spacings over the size, at most
 
 Cells = NDArray[np.int64]
 HALF: Final = [d for d in product((-1, 0, 1), repeat=3) if d > (0, 0, 0)]
@@ -41,17 +42,19 @@ def lonely(points: Points) -> tuple[Mask, Cells]:
     -------
     lonely : (k,) bool
         Points on islands of cells that touch no others and hold few points, and single points
-        whose neighbours are five times further away than is usual for these.
+        whose neighbours are four times further away than is usual for these.
     island : (k,) int
         Number of the island of every point, the one with most points 0.
     """
     size = float(np.linalg.norm(np.ptp(points, axis=0)))
-    edge = max(CELL * spacing(points), size / FINEST)
-    keys, strides = _cells(points, edge)
+    usual = max(spacing(points), size / FINEST)
+    keys, strides = _cells(points, CELL * usual)
     cells, number, count = np.unique(keys, return_inverse=True, return_counts=True)
     island, held = _islands(cells, count, strides)
     out = (held < SMALL * len(points))[island][number]
-    thin = np.flatnonzero((count[number] <= FEW) & ~out)
+    keys, strides = _cells(points, PORE * usual)
+    cells, which, count = np.unique(keys, return_inverse=True, return_counts=True)
+    thin = np.flatnonzero((count[which] <= FEW) & ~out)
     if len(thin):
         out[thin] = _apart(points, out, keys, cells, strides, thin)
     return np.asarray(out), island[number]
@@ -79,8 +82,8 @@ def _apart(
     if len(near) <= NEIGHBOURS:
         return np.ones(len(thin), bool)
     tree = cKDTree(points[near])
-    own, beside = tree.query(points[thin], NEIGHBOURS + 1)
-    theirs, _ = tree.query(points[near[beside[:, 1:].ravel()]], NEIGHBOURS + 1)
+    own, beside = map(np.asarray, tree.query(points[thin], NEIGHBOURS + 1))
+    theirs = np.asarray(tree.query(points[near[beside[:, 1:].ravel()]], NEIGHBOURS + 1)[0])
     usual = np.median(theirs[:, -1].reshape(len(thin), NEIGHBOURS), axis=1)
     return np.asarray(own[:, -1] > FAR * np.maximum(usual, 1e-12))
 
@@ -96,7 +99,7 @@ def _cells(points: Points, edge: float) -> tuple[Cells, Cells]:
     return keys, strides
 
 
-def _beside(cells: Cells, strides: Cells, step: tuple[int, int, int]) -> tuple[Cells, Cells]:
+def _beside(cells: Cells, strides: Cells, step: tuple[int, ...]) -> tuple[Cells, Cells]:
     """Numbers of the cells that have a neighbour one step on, and of these."""
     wanted = cells + np.dot(step, strides)
     at = np.minimum(np.searchsorted(cells, wanted), len(cells) - 1)

@@ -48,7 +48,7 @@ def parted(
         As `repaired` and `split_sides` do.
     """
     move = upright(airfoil)
-    back = np.linalg.inv(move)
+    back = np.asarray(np.linalg.inv(move), dtype=np.float64)
     stood = repaired(moved_sections(sections, move, "z"))
     lines = split_sides(stood, le=le, suction=suction)
     laid = moved_sections(stood, back, sections.source.axis)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -145,7 +146,7 @@ def _loops(points: Points) -> int:
         flat = planes(axis).flat(X, 0.0, 0.0)
         edges = np.quantile(flat[:, 2], np.linspace(0.1, 0.9, LOOPS + 1))
         counts = []
-        for low, high in zip(edges[:-1], edges[1:], strict=True):
+        for low, high in pairwise(edges):
             slab = flat[(flat[:, 2] > low) & (flat[:, 2] < high)]
             held = np.bincount(lonely(slab)[1])
             counts.append(int((held > LARGE * len(slab)).sum()))

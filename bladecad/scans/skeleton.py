@@ -81,10 +81,11 @@ def skeleton(flat: Points, found: Slabs, taken: Mask) -> Skeleton:
     flat : (k, 3) float, mm
     found : Slabs
     taken : (m,) bool
-        Slabs that are airfoil; they stand side by side.
+        Slabs that are airfoil; what lies between the first and the last of them is, too.
     """
     which = np.flatnonzero(taken)
     low, high = float(found.borders[which[0]]), float(found.borders[which[-1] + 1])
+    which = which[found.quality[which] > 0.0]
     share = 2.0 * (found.heights[which] - low) / (high - low) - 1.0
     ends = _one_way(found.edges[which]).reshape(-1, 4)
     degree = min(EDGES, len(which) // 3)

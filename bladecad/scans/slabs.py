@@ -84,7 +84,10 @@ def slabs(flat: Points, borders: Vector) -> Slabs:
     flat, slab, place = flat[order], slab[order], place[order]
     n = np.bincount(slab, minlength=m)
     ends = np.cumsum(n)
-    found = [_slab(flat[e - k : e], 2.0 * (place[e - k : e] % 1.0) - 1.0) for e, k in zip(ends, n)]
+    found = [
+        _slab(flat[e - k : e], 2.0 * (place[e - k : e] % 1.0) - 1.0)
+        for e, k in zip(ends, n, strict=True)
+    ]
     chord, thick, miss, quality = np.array([f[0] for f in found]).reshape(m, 4).T
     centre = np.array([f[1] for f in found]).reshape(m, 2)
     edges = np.array([f[2] for f in found]).reshape(m, 2, 2)

@@ -63,7 +63,7 @@ def smooth(w: Vector, lift: Vector, y: Vector, count: int, stiff: float = 1.0) -
         Least weight of smoothness, times the usual.
     """
     B, C = periodic(w, count), periodic(w, SLOPES)
-    A = _beside(B, C.multiply(lift[:, None]).tocsr())
+    A = _beside(B, csr_matrix(C.multiply(lift[:, None])))
     penalty = np.zeros((A.shape[1],) * 2)
     penalty[:count, :count] = _roughness(count, ORDER) + TENSION * _roughness(count, 1)
     held = np.zeros_like(penalty)
@@ -99,7 +99,7 @@ def _cross_validated(
     A: csr_matrix, y: Vector, weight: Vector, P: Array, held: Array, grid: Vector
 ) -> tuple[Vector, float, float]:
     """Penalised least squares whose weight of smoothness predicts left-out values best."""
-    W = A.multiply(weight[:, None]).tocsr()
+    W = csr_matrix(A.multiply(weight[:, None]))
     G, r, yy = (A.T @ W).toarray(), np.asarray(W.T @ y), float(weight @ y**2)
     scale = np.trace(G) / np.trace(P)
     G += HELD * len(y) / SLOPES * held

@@ -21,6 +21,9 @@ LEAVES: Final = (0.008, 0.014)  # by which chord and area may leave it: fillets,
 CLEAR: Final = 4.0  # times their scatter
 CORE: Final = 0.7  # of the run, in its middle, that the trend begins from
 SHORTEST: Final = 5  # slabs
+HOLED: Final = 0.97  # times the usual points: a slab with a hole
+PASSED: Final = 30  # slabs that may be passed over
+LIKE: Final = 0.6  # of the usual quality: slabs that it may go on with behind them
 LOCAL: Final = 12  # slabs that the next one is foretold from
 CELLS: Final = 40  # along the chord, on each side, in which the rim is looked for
 NEAR: Final = 0.25  # of the half thickness: points that lie on the airfoil
@@ -35,7 +38,7 @@ THICKER: Final = 6.0  # times the scatter, by which a cell leaves its trend
 GROWN: Final = 0.03  # of the half thickness, at least
 TILT: Final = 0.06  # of the rise of a rim: what it may be misjudged by
 HOLE: Final = 2.0  # slabs by which a rim that has a hole dips
-INSET: Final = 0.002  # of the span, left out at a rim
+INSET: Final = 0.003  # of the span, left out at a rim
 
 
 def cut(flat: Points) -> Slabs:
@@ -59,29 +62,55 @@ def _on_trend(found: Slabs, first: int, last: int) -> Mask:
     k = np.arange(len(values))
     middle, half = 0.5 * (first + last), 0.5 * (last - first)
     good = np.abs(k - middle) <= CORE * half
-    A = legendre((k - middle) / half, TREND)
+    A = legendre(np.asarray((k - middle) / half, dtype=np.float64), TREND)
     off = np.stack([np.abs(v - A @ robust(A[good], v[good])) for v in values.T], axis=1)
     bound = np.maximum(LEAVES, CLEAR * 1.4826 * np.median(off[good], axis=0))
     good = _joined((off <= bound).all(axis=1) & (k >= first) & (k <= last), round(middle))
     which = np.flatnonzero(good)
     low, high = int(which[0]), int(which[-1])
-    back = _grown(values[: high + 1][::-1], high - low, high - first, bound)
-    on = _grown(values[low:], high - low, last - low, bound)
+    like = found.quality > LIKE * float(np.median(found.quality[good]))
+    holed = (found.quality > 0.0) & (found.count < HOLED * np.median(found.count[good]))
+    back = _grown(
+        values[: high + 1][::-1], like[: high + 1][::-1], holed[: high + 1][::-1], high - low, bound
+    )
+    on = _grown(values[low:], like[low:], holed[low:], high - low, bound)
     return np.asarray((k >= high - back) & (k <= low + on))
 
 
-def _grown(values: Array, begin: int, most: int, bound: Vector) -> int:
-    """Number of the last slab, at most `most`, that goes on as those before it do."""
-    k = begin
-    while k < most:
-        before = np.arange(max(k + 1 - LOCAL, 0), k + 1)
-        c = robust((before[:, None] - k) ** np.arange(3.0), values[before])
-        ahead = np.arange(k + 1, min(k + 2, most) + 1)
-        off = np.abs(values[ahead] - ((ahead[:, None] - k) ** np.arange(3.0)) @ c)
-        if (off[0] > bound).any() and (off[-1] > bound).any():
+def _grown(values: Array, like: Mask, holed: Mask, begin: int, bound: Vector) -> int:
+    """Number of the last slab that goes on as those before it do.
+
+    Slabs that do not are passed over, be it a hole or a shroud, where those behind them do again;
+    those with points missing need only have the chord.
+    """
+    k, before = begin, list(range(begin + 1))
+    while k < len(values) - 1:
+        off = _off(values, np.array(before), k, np.array([k + 1]), 2)[0]
+        if (off <= bound).all():
+            k += 1
+        else:
+            ahead = np.arange(k + 2, min(k + 2 + PASSED, len(values)))
+            off = _off(values, np.array(before), k, ahead, 1)
+            wider = np.maximum(1.0, 2.0 * (ahead - k) / LOCAL)[:, None]
+            fits = (off <= bound * wider).all(axis=1) & like[ahead]
+            again = np.flatnonzero(fits[2:] & fits[1:-1] & fits[:-2])
+            if len(again) == 0:
+                break
+            k = int(ahead[again[0]])
+        before.append(k)
+    while k < len(values) - 1 and holed[k + 1]:
+        if _off(values[:, :1], np.array(before), k, np.array([k + 1]), 1)[0] > bound[0]:
             break
-        k += 1 if (off[0] <= bound).all() else 2
-    return min(k, most)
+        k += 1
+    return k
+
+
+def _off(values: Array, before: Counts, k: int, ahead: Counts, degree: int) -> Array:
+    """How far values ahead are off the line, or parabola, through those before."""
+    near = before[-LOCAL * (3 - degree) :]
+    powers = np.arange(degree + 1.0)
+    c = robust(((near - k) / LOCAL)[:, None] ** powers, values[near])
+    return np.asarray(np.abs(values[ahead] - ((ahead - k) / LOCAL)[:, None] ** powers @ c))
 
 
 def _joined(fits: Mask, middle: int) -> Mask:
