@@ -168,11 +168,6 @@ Align = Annotated[
     typer.Option("--align", help="Write files in the frame of the blade, not of the scan.",
                  rich_help_panel=SCAN),
 ]  # fmt: skip
-Partial = Annotated[
-    bool,
-    typer.Option("--allow-partial", help="Take a scan that is not closed around.",
-                 rich_help_panel=SCAN),
-]  # fmt: skip
 Lead = Annotated[
     LeadChoice | None,
     typer.Option("--le", help="Leading edge at the low or high end of the axis; else by shape.",

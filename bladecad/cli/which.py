@@ -25,7 +25,7 @@ def refuse_for_scans(path: Path, **asked: str) -> None:
             _refuse(f"--{option} {value} is for sections", f"{path.name} holds a scan")
 
 
-def refuse_for_sections(path: Path, *, axis: Any, partial: bool, **asked: Any) -> None:
+def refuse_for_sections(path: Path, *, axis: Any, **asked: Any) -> None:
     """Refuse what sections cannot be asked for.
 
     Raises
@@ -33,7 +33,7 @@ def refuse_for_sections(path: Path, *, axis: Any, partial: bool, **asked: Any) -
     ToleranceError
         If an option makes no sense for sections.
     """
-    for option, value in {**asked, "allow-partial": partial}.items():
+    for option, value in asked.items():
         if value is not None and value is not False:
             _refuse(f"--{option} is for scans", f"{path.name} holds sections")
     if isinstance(axis, tuple):

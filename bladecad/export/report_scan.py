@@ -45,7 +45,6 @@ def _airfoil(airfoil: Airfoil) -> Report:
         "points": taken,
         "lonely": int(airfoil.lonely.sum()),
         "left": len(airfoil.taken) - taken - int(airfoil.lonely.sum()),
-        "partial": airfoil.partial,
         "notes": list(airfoil.notes),
     }
 

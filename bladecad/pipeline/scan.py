@@ -116,7 +116,6 @@ def airfoil_of(scan: Scan, settings: ScanSettings) -> Airfoil:
     with _said_of(scan):
         return find_airfoil(
             scan, axis=settings.direction, span=settings.span, height=settings.height,
-            partial=settings.partial,
         )  # fmt: skip
 
 

@@ -39,7 +39,6 @@ class ScanSettings:
     le, suction : see `split_sides`
     stations    : how many sections the scan is cut into, to start from
     align       : move everything into the frame of the blade, see `blade_frame`
-    partial     : take a scan that is not closed around
     """
 
     tolerance: float = 0.01
@@ -54,7 +53,6 @@ class ScanSettings:
     chord_error: float = 0.005
     stations: int = STATIONS
     align: bool = False
-    partial: bool = False
 
     def __post_init__(self) -> None:
         for name in ("tolerance", "chord_error"):

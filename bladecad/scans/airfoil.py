@@ -35,7 +35,6 @@ class Airfoil:
     low, high : mm, heights between which it is airfoil
     taken   : (k,) bool, points of the scan that are airfoil
     lonely  : (k,) bool, points that stand alone; not taken
-    partial : True if it is not closed around
     notes   : what was guessed, and how to say otherwise
     """
 
@@ -46,7 +45,6 @@ class Airfoil:
     high: float
     taken: Mask
     lonely: Mask
-    partial: bool
     notes: tuple[str, ...]
 
     def __post_init__(self) -> None:
@@ -64,7 +62,6 @@ def find_airfoil(
     axis: Vector | None = None,
     span: tuple[float, float] | None = None,
     height: Height | None = None,
-    partial: bool = False,
 ) -> Airfoil:
     """Find the stacking axis of a scan and the span that is airfoil.
 
@@ -80,8 +77,6 @@ def find_airfoil(
         given, along the one found, in the sense in which its largest component is positive.
     height : Height, optional
         Cylinders or cones to cut along; planes across the stacking axis by default.
-    partial : bool
-        Asked for a scan of one side. None is taken yet: it is refused by what it is.
 
     Raises
     ------
@@ -102,7 +97,7 @@ def find_airfoil(
             f"{found.high:.4g} mm; give another --span"
         )
     return Airfoil(
-        scan, found.height, found.axis, found.low, found.high, inside, alone, False,
+        scan, found.height, found.axis, found.low, found.high, inside, alone,
         (*found.notes, *_said(scan, found, alone, far)),
     )  # fmt: skip
 

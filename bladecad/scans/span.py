@@ -151,9 +151,9 @@ def limits(flat: Points, found: Slabs, taken: Mask) -> tuple[float, float, Skele
         else:
             near = on & (h < step) & (h > -8.0 * step)
             rim, slope = _rim(h[near], cell[near], step)
-            ends.append(border + min(rim, step) - TILT * slope)
-    inset = INSET * (ends[0] + ends[1])
-    return inset - ends[0], ends[1] - inset, shape
+            inset = INSET * (shape.high - shape.low)
+            ends.append(border + min(rim, step) - TILT * slope - inset)
+    return -ends[0], ends[1], shape
 
 
 def _fillet(height: Vector, thick: Vector, cell: Counts, usual: float) -> float:

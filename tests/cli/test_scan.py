@@ -200,7 +200,7 @@ def test_options_that_are_not_for_scans_are_refused(arguments, message: str, sca
 
 @pytest.mark.parametrize(
     "arguments",
-    [["--span", "1:2"], ["--align"], ["--allow-partial"], ["--stations", "9"], ["--about", "z"],
+    [["--span", "1:2"], ["--align"], ["--stations", "9"], ["--about", "z"],
      ["--cone", "5"], ["--axis", "1,0,0"]],
 )  # fmt: skip
 def test_options_that_are_for_scans_alone_are_refused_for_sections(arguments, tmp_path: Path):
@@ -234,7 +234,7 @@ def test_a_span_below_zero_and_an_axis_reach_the_reader(scan, tmp_path: Path, mo
     monkeypatch.setattr(pipeline, "build_scan", note)
     code, *_ = run(
         "build", scan, "-o", tmp_path / "out", "--span", "-12.5:80", "--axis", "0,0,-1", "--align",
-        "--about", "x", "--cone", "30", "--stations", "33", "--allow-partial", "--units", "in",
+        "--about", "x", "--cone", "30", "--stations", "33", "--units", "in",
     )  # fmt: skip
     assert code == 130
     (settings,) = asked
@@ -242,7 +242,7 @@ def test_a_span_below_zero_and_an_axis_reach_the_reader(scan, tmp_path: Path, mo
     assert settings.direction.tolist() == [0.0, 0.0, -1.0]
     assert settings.height.kind == "cone"
     assert np.degrees(settings.height.half_angle) == pytest.approx(30.0)
-    assert (settings.stations, settings.align, settings.partial) == (33, True, True)
+    assert (settings.stations, settings.align) == (33, True)
     assert settings.unit == "in"
 
 
