@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 import numpy as np
+from numpy.typing import NDArray
 
 from bladecad.arrays import Mask, Points, Vector
 from bladecad.data.scan import Scan
+
+LARGER: Final = 30.0  # times the usual edge (geometric mean) at all of its vertices
+SELDOM: Final = 0.01  # of the triangles; more is how the mesh was made
 
 
 def skin(scan: Scan, count: int, usable: Mask, inside: Mask | None = None) -> Points:
@@ -33,11 +39,25 @@ def skin(scan: Scan, count: int, usable: Mask, inside: Mask | None = None) -> Po
         if len(which) > count:
             which = rng.choice(which, count, replace=False)
         return np.asarray(scan.points[rng.permutation(which)])
-    corners = scan.points[scan.triangles[usable[scan.triangles].any(axis=1)]]
+    kept = usable[scan.triangles].any(axis=1) & ~astray(scan.points, scan.triangles)
+    corners = scan.points[scan.triangles[kept]]
     area = 0.5 * np.linalg.norm(
         np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
     )
     return _spread(corners, area, count, rng)
+
+
+def astray(points: Points, triangles: NDArray[np.int64]) -> Mask:
+    """Triangles that are far too large among those beside them: vertices joined at random, (m,)."""
+    ends = np.concatenate([triangles[:, [i, j]] for i, j in ((0, 1), (1, 2), (2, 0))])
+    length = np.linalg.norm(points[ends[:, 0]] - points[ends[:, 1]], axis=1)
+    log = np.log(np.maximum(length, 1e-300))
+    edges = np.bincount(ends.ravel(), minlength=len(points))
+    mean = np.bincount(ends.ravel(), np.repeat(log, 2), minlength=len(points))
+    usual = mean / np.maximum(edges, 1)
+    largest = log.reshape(3, -1).max(axis=0)
+    out = np.asarray(largest > np.log(LARGER) + usual[triangles].max(axis=1))
+    return out if out.mean() < SELDOM else np.zeros(len(out), bool)
 
 
 def _spread(corners: Points, area: Vector, count: int, rng: np.random.Generator) -> Points:
@@ -48,4 +68,5 @@ def _spread(corners: Points, area: Vector, count: int, rng: np.random.Generator)
     over = s + t > 1.0
     s, t = np.where(over, 1.0 - s, s)[:, None], np.where(over, 1.0 - t, t)[:, None]
     a, b, c = np.moveaxis(corners[np.minimum(which, len(area) - 1)], 1, 0)
-    return np.asarray(a + s * (b - a) + t * (c - a))
+    found: Points = a + s * (b - a) + t * (c - a)
+    return found

@@ -17,7 +17,7 @@ from bladecad.scans.slabs import Slabs, slabs
 from bladecad.scans.span import MORE, cut, limits, run
 
 WORTH: Final = 0.12  # of the points, times how well they are followed: less is no blade
-ROOT: Final = 4.0  # times the points of a usual slab, beyond the airfoil: a root or platform
+ROOT: Final = 4  # slabs beyond the airfoil with more points than it: a root or platform, no cap
 SHORTEST: Final = 0.15  # span over chord
 FOLLOWED: Final = 0.5  # of the slabs between given heights that must be sections
 GIVEN: Final = 60  # slabs between given heights
@@ -74,7 +74,7 @@ def located(
     found = cut(flat)
     taken = run(found)
     if taken is None:
-        raise no_blade(points)
+        raise no_blade(points) if guessed else _none_across(height)
     notes = []
     if guessed:
         down, why = _upside_down(found, taken)
@@ -88,10 +88,18 @@ def located(
     low, high, shape = limits(flat, found, taken)
     chord = float(np.median(found.chord[taken]))
     if high - low < SHORTEST * chord:
-        raise no_blade(points)
+        raise no_blade(points) if guessed else _none_across(height)
     return Located(
         height, _up(height, points), low, high, shape, radius, middle, tuple(notes)
     )  # fmt: skip
+
+
+def _none_across(height: Height) -> DataError:
+    what = "planes across" if height.kind == "plane" else f"{height.kind}s about"
+    return DataError(
+        f"{what} the axis {_told(height.axis)} cut the scan into no run of slender closed loops "
+        "that change slowly; leave --axis out, or give --span"
+    )
 
 
 def _found(points: Points) -> Vector:
@@ -132,10 +140,9 @@ def _given(points: Points, height: Height, span: tuple[float, float], guessed: b
 def _upside_down(found: Slabs, taken: Mask) -> tuple[bool, str]:
     """Whether the hub is at the upper end: the root or platform, else the larger section."""
     which = np.flatnonzero(taken)
-    mean = float(np.median(found.count[which]))
-    more = np.where(found.count > MORE * mean, found.count, 0.0) / mean
-    below, above = float(more[: which[0]].sum()), float(more[which[-1] + 1 :].sum())
-    if max(below, above) > ROOT:
+    more = found.count > MORE * float(np.median(found.count[which]))
+    below, above = int(more[: which[0]].sum()), int(more[which[-1] + 1 :].sum())
+    if max(below, above) >= ROOT:
         return above > below, "the end with the root or platform was taken as the hub"
     return _larger_above(found, taken), "the end with the larger section was taken as the hub"
 

@@ -30,6 +30,7 @@ NEAR: Final = 0.25  # of the half thickness: points that lie on the airfoil
 OFF: Final = 0.004  # of the chord, as well
 RIM: Final = 3  # degree of the rim along the chord
 MORE: Final = 1.15  # times the points of a usual slab: a platform or a root
+CAP: Final = 2  # slabs that a cap may fill
 RETREAT: Final = 0.1  # slabs left out beside a fillet
 CLEAR_OF_EDGES: Final = 0.03  # of the chord, where the rough shape tells no fillet
 SEVERAL: Final = 4  # cells that must have left it
@@ -141,7 +142,7 @@ def limits(flat: Points, found: Slabs, taken: Mask) -> tuple[float, float, Skele
         border = float(way * found.borders[last + (way > 0)])
         h = way * flat[:, 2] - border
         beyond = found.count[:last] if way < 0 else found.count[last + 1 :]
-        if (beyond > MORE * float(np.median(found.count[taken]))).sum() > 2:
+        if (beyond > MORE * float(np.median(found.count[taken]))).sum() > CAP:
             near = (np.abs(h) < 20.0 * step) & (np.abs(across) < 3.0 * half + OFF * chord)
             near &= (X > CLEAR_OF_EDGES) & (X < 1.0 - CLEAR_OF_EDGES)
             thick = (np.abs(across) - half)[near]
