@@ -14,10 +14,10 @@ from bladecad.scans.height import Height, planes
 from bladecad.scans.refusals import no_blade
 from bladecad.scans.skeleton import Skeleton, skeleton
 from bladecad.scans.slabs import Slabs, slabs
-from bladecad.scans.span import MORE, cut, limits, run
+from bladecad.scans.span import beyond, cut, limits, run
 
 WORTH: Final = 0.12  # of the points, times how well they are followed: less is no blade
-ROOT: Final = 4  # slabs beyond the airfoil with more points than it: a root or platform, no cap
+ROOT: Final = 4  # slabs beyond the airfoil larger than it: a root or platform, no cap
 SHORTEST: Final = 0.15  # span over chord
 FOLLOWED: Final = 0.5  # of the slabs between given heights that must be sections
 GIVEN: Final = 60  # slabs between given heights
@@ -139,9 +139,7 @@ def _given(points: Points, height: Height, span: tuple[float, float], guessed: b
 
 def _upside_down(found: Slabs, taken: Mask) -> tuple[bool, str]:
     """Whether the hub is at the upper end: the root or platform, else the larger section."""
-    which = np.flatnonzero(taken)
-    more = found.count > MORE * float(np.median(found.count[which]))
-    below, above = int(more[: which[0]].sum()), int(more[which[-1] + 1 :].sum())
+    below, above = beyond(found, taken)
     if max(below, above) >= ROOT:
         return above > below, "the end with the root or platform was taken as the hub"
     return _larger_above(found, taken), "the end with the larger section was taken as the hub"

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from bladecad.arrays import Array, Mask, Points, Vector
 from bladecad.scans.skeleton import Skeleton, legendre, robust, skeleton
-from bladecad.scans.slabs import Slabs, alike, longest_run, slabs
+from bladecad.scans.slabs import FEWEST, Slabs, alike, longest_run, slabs
 
 Counts = NDArray[np.int64]
 
@@ -29,7 +29,9 @@ CELLS: Final = 40  # along the chord, on each side, in which the rim is looked f
 NEAR: Final = 0.25  # of the half thickness: points that lie on the airfoil
 OFF: Final = 0.004  # of the chord, as well
 RIM: Final = 3  # degree of the rim along the chord
-MORE: Final = 1.15  # times the points of a usual slab: a platform or a root
+MORE: Final = 1.15  # times the points of a usual slab, or
+LARGER: Final = (1.3, 1.08)  # times area and chord of the end of the airfoil
+NEXT: Final = 5  # slabs at its end
 CAP: Final = 2  # slabs that a cap may fill
 RETREAT: Final = 0.1  # slabs left out beside a fillet
 CLEAR_OF_EDGES: Final = 0.03  # of the chord, where the rough shape tells no fillet
@@ -141,8 +143,7 @@ def limits(flat: Points, found: Slabs, taken: Mask) -> tuple[float, float, Skele
     for way, last in ((-1, which[0]), (1, which[-1])):
         border = float(way * found.borders[last + (way > 0)])
         h = way * flat[:, 2] - border
-        beyond = found.count[:last] if way < 0 else found.count[last + 1 :]
-        if (beyond > MORE * float(np.median(found.count[taken]))).sum() > CAP:
+        if beyond(found, taken)[int(way > 0)] > CAP:
             near = (np.abs(h) < 20.0 * step) & (np.abs(across) < 3.0 * half + OFF * chord)
             near &= (X > CLEAR_OF_EDGES) & (X < 1.0 - CLEAR_OF_EDGES)
             thick = (np.abs(across) - half)[near]
@@ -155,6 +156,21 @@ def limits(flat: Points, found: Slabs, taken: Mask) -> tuple[float, float, Skele
             inset = INSET * (shape.high - shape.low)
             ends.append(border + min(rim, step) - TILT * slope - inset)
     return -ends[0], ends[1], shape
+
+
+def beyond(found: Slabs, taken: Mask) -> tuple[int, int]:
+    """How many slabs below and above the airfoil are larger than it: of a root, a platform."""
+    which = np.flatnonzero(taken)
+    more = found.count > MORE * float(np.median(found.count[which]))
+    sides = []
+    for end, side in (
+        (which[:NEXT], slice(0, which[0])),
+        (which[-NEXT:], slice(which[-1] + 1, None)),
+    ):
+        area, chord = (float(np.median(v[end])) for v in (found.area, found.chord))
+        larger = (found.area > LARGER[0] * area) | (found.chord > LARGER[1] * chord)
+        sides.append(int((more | (larger & (found.count >= FEWEST)))[side].sum()))
+    return sides[0], sides[1]
 
 
 def _fillet(height: Vector, thick: Vector, cell: Counts, usual: float) -> float:
