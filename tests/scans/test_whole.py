@@ -70,7 +70,7 @@ def test_outliers_have_no_weight_and_good_points_have(asked):
     outlier = scan.kind[airfoil.taken] == OUTLIER
     far = np.abs(whole.feet.distance) > 6.5 * scan.sigma
     assert (whole.weight[outlier & far] == 0.0).all()
-    assert (outlier & far).sum() > 500
+    assert (outlier & far).sum() > 100  # most of them stand alone, and were left out before
     assert (whole.weight[~outlier & ~whole.feet.rim] > 0.1).mean() > 0.999
 
 
