@@ -56,7 +56,7 @@ def fit(
         fitted, reason = _fitted(lines, settings, noise(sections), tell)
         if not reason or order is not None:
             surface = pipeline.surface_of(fitted, law)
-            save(surface, output, provenance=provenance(sections, fitted))
+            save(surface, output, provenance=provenance(sections, fitted), machine=sections.machine)
     content = fit_report(
         fitted, settings, name=path.stem, sections=sections, misprints=found, reason=reason
     )

@@ -71,6 +71,20 @@ class Row:
 
 
 @final
+@dataclass(frozen=True, eq=False)
+class Machine:
+    """The machine round a blade: its axis, through the origin, and the row."""
+
+    axis: Axis = "z"
+    row: Row = field(default_factory=Row)
+
+    @property
+    def column(self) -> int:
+        """Of the axis: 0, 1 or 2."""
+        return "xyz".index(self.axis)
+
+
+@final
 @dataclass(frozen=True)
 class Source:
     """Where the sections came from, and what had to be guessed.
@@ -100,6 +114,11 @@ class Sections:
     def axis(self) -> int:
         """Column of the machine axis: 0, 1 or 2."""
         return "xyz".index(self.source.axis)
+
+    @property
+    def machine(self) -> Machine:
+        """Axis and row."""
+        return Machine(self.source.axis, self.row)
 
     def noted(self, *notes: str) -> Sections:
         """Return the same blade with further notes for the user."""

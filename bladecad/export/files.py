@@ -111,7 +111,9 @@ def _write(product: Product, files: Mapping[str, Path], name: str) -> Checks:
     write_step(product.solid, files["step"], name=name)
     agreement = confirm(product.solid, read_step(files["step"]))
     stl = write_stl(product.mesh, files["stl"])
-    save(product.surface, files["model"], provenance=provenance(product.sections, product.fit))
+    origin = provenance(product.sections, product.fit)
+    machine = None if product.scanned else product.sections.machine  # a scan has its own frame
+    save(product.surface, files["model"], provenance=origin, machine=machine)
     draw_overview(product, files["picture"], name=name)
     if product.scanned:
         from bladecad.export.scan_picture import draw_scan

@@ -11,6 +11,7 @@ from typing import Any, Final, get_args
 import numpy as np
 
 from bladecad.arrays import Array
+from bladecad.data.sections import Axis, Machine, Row
 from bladecad.errors import BladecadError, DataError
 from bladecad.export.bases import START, read_basis, write_basis
 from bladecad.export.text import write_json
@@ -19,6 +20,7 @@ from bladecad.surface.blade import BladeSurface, EdgeKind, Law
 
 FAMILY: Final = "bladecad-model"
 VERSION: Final = 1
+WALLS: Final = ("hub", "shroud")
 
 
 def save(
@@ -26,6 +28,7 @@ def save(
     path: str | os.PathLike[str],
     *,
     provenance: Mapping[str, object] | None = None,
+    machine: Machine | None = None,
 ) -> None:
     """Write a blade surface as a model file; `docs/files.md` says what stands in it.
 
@@ -36,6 +39,8 @@ def save(
         Replaced when it exists; written beside first and then renamed.
     provenance : mapping, optional
         Where the blade came from; kept, never read back.
+    machine : Machine, optional
+        Axis, blade count, hub and shroud, where they are known; `load_machine` reads them back.
 
     Raises
     ------
@@ -46,6 +51,7 @@ def save(
         "schema": f"{FAMILY}/{VERSION}",
         "unit": "mm",
         "provenance": dict(provenance or {}),
+        **({"machine": _write_machine(machine)} if machine else {}),
         "law": surface.law,
         "edges": {"le": surface.le, "te": surface.te},
         "span": surface.span,
@@ -77,6 +83,30 @@ def load(path: str | os.PathLike[str]) -> BladeSurface:
         raise DataError(f"{path}: the model has no {error.args[0]!r}; export it again") from error
     except (TypeError, ValueError, BladecadError) as error:
         raise DataError(f"{path}: the model is broken: {error}; export it again") from error
+
+
+def load_machine(path: str | os.PathLike[str]) -> Machine | None:
+    """Read the machine round the blade of a model file, None where it does not say.
+
+    Raises
+    ------
+    DataError
+        As `load`.
+    """
+    said = _parsed(Path(path)).get("machine")
+    if said is None:
+        return None
+    try:
+        hub, shroud = (np.array(said[k], dtype=np.float64).reshape(-1, 2) for k in WALLS)
+        return Machine(_one_of(Axis, said["axis"]), Row(said["blade_count"], hub, shroud))
+    except (KeyError, TypeError, ValueError, BladecadError) as error:
+        raise DataError(f"{path}: the machine is broken: {error}; export it again") from error
+
+
+def _write_machine(machine: Machine) -> dict[str, object]:
+    row = machine.row
+    walls = {"hub": row.hub, "shroud": row.shroud}
+    return {"axis": machine.axis, "blade_count": row.blade_count, **walls}
 
 
 def _write_side(side: SideFit) -> dict[str, object]:

@@ -11,8 +11,9 @@ from scipy.interpolate import CubicSpline
 from scipy.linalg import expm
 
 import bladecad
+from bladecad.data.sections import Machine, Row
 from bladecad.errors import DataError, ExportError
-from bladecad.export.model_file import load, save
+from bladecad.export.model_file import load, load_machine, save
 from bladecad.surface.blade import BladeSurface
 from tests.export.products import orbit, small, spectrum, surface
 
@@ -187,3 +188,23 @@ def test_a_model_that_cannot_be_written_leaves_nothing(tmp_path: Path):
     with pytest.raises(ExportError, match="cannot be written"):
         save(SURFACES["shared"], tmp_path / "m.json")
     assert [path.name for path in tmp_path.iterdir()] == ["m.json"]
+
+
+def test_the_machine_round_a_blade_comes_back(tmp_path: Path):
+    hub, shroud = np.array([[0.0, 100.0], [50.0, 110.0]]), np.array([[0.0, 200.0], [50.0, 190.0]])
+    save(SURFACES["shared"], tmp_path / "b.json", machine=Machine("x", Row(36, hub, shroud)))
+    again = load_machine(tmp_path / "b.json")
+    assert again is not None
+    assert (again.axis, again.row.blade_count) == ("x", 36)
+    np.testing.assert_array_equal(again.row.hub, hub)
+    np.testing.assert_array_equal(again.row.shroud, shroud)
+
+
+def test_a_model_without_a_machine_says_so(tmp_path: Path):
+    assert load_machine(written(SURFACES["shared"], tmp_path)[0]) is None
+
+
+def test_a_broken_machine_is_refused(tmp_path: Path):
+    path = changed(written(SURFACES["shared"], tmp_path)[0], machine={"axis": "q"})
+    with pytest.raises(DataError, match="machine is broken"):
+        load_machine(path)

@@ -1,0 +1,1 @@
+"""Meshes as files that CFD programs take as they are."""

@@ -1,0 +1,1 @@
+"""Surface meshes for CFD, straight from S(u,t): sized, named, measured."""

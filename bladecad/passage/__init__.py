@@ -1,0 +1,1 @@
+"""The blade in its row: end walls, tip gap, and the periodic flow domain of one blade."""
