@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import cadquery as cq
@@ -16,6 +17,7 @@ from OCP.Geom import Geom_BSplineCurve, Geom_BSplineSurface
 from OCP.gp import gp_Dir, gp_Pln, gp_Pnt
 from OCP.TColgp import TColgp_Array1OfPnt, TColgp_Array2OfPnt
 from OCP.TColStd import TColStd_Array1OfInteger, TColStd_Array1OfReal
+from OCP.TopTools import TopTools_ListOfShape
 
 from bladecad.arrays import Array, Points, Vector
 from bladecad.brep.caps import best_plane
@@ -30,17 +32,17 @@ def spline_face(patch: SplinePatch) -> cq.Face:
     return _made(BRepBuilderAPI_MakeFace(_surface(patch), DEGENERATE), "a spline patch")
 
 
-def plane_face(section: SplinePatch) -> cq.Face:
-    """Return the plane bounded by the outline of a ruled end section, which must be planar.
+def plane_face(around: Sequence[SplinePatch], row: int) -> cq.Face:
+    """Return the plane bounded by one row, 0 (hub) or -1 (tip), of the patches around a blade.
 
     Notes
     -----
     On an outline out of plane the kernel gives a null face without a word; the caller has
     flattened the outline, and a null face is refused here.
     """
-    middle, normal, _ = best_plane(section.poles.reshape(-1, 3))
+    middle, normal, _ = best_plane(np.concatenate([patch.poles[row] for patch in around]))
     plane = gp_Pln(_point(middle), gp_Dir(*normal.tolist()))
-    return _made(BRepBuilderAPI_MakeFace(plane, _outline(section)), "a plane cap")
+    return _made(BRepBuilderAPI_MakeFace(plane, _outline(around, row)), "a plane cap")
 
 
 def sample_surface(face: cq.Face, u: Vector, t: Vector) -> Array:
@@ -64,26 +66,15 @@ def _made(maker: Any, what: str) -> cq.Face:
     return cq.Face(maker.Face())
 
 
-def _outline(section: SplinePatch) -> Any:
-    suction, pressure = section.poles
-    lines = [_line(suction, section.knots_t, section.degree_t)]
-    lines += [_segment(suction[-1], pressure[-1])] if _apart(section, -1) else []
-    lines += [_line(pressure, section.knots_t, section.degree_t)]
-    lines += [_segment(pressure[0], suction[0])] if _apart(section, 0) else []
+def _outline(around: Sequence[SplinePatch], row: int) -> Any:
+    edges = TopTools_ListOfShape()
+    for patch in around:
+        edges.Append(_line(patch.poles[row], patch.knots_t, patch.degree_t))
     wire = BRepBuilderAPI_MakeWire()
-    for line in lines:
-        wire.Add(line)
+    wire.Add(edges)
     if not wire.IsDone() or not wire.Wire().Closed():
         raise GeometryError("the outline of an end section does not close")
     return wire.Wire()
-
-
-def _apart(section: SplinePatch, column: int) -> bool:
-    return not np.array_equal(section.poles[0, column], section.poles[1, column])
-
-
-def _segment(start: Points, stop: Points) -> Any:
-    return _line(np.stack([start, stop]), np.array([0.0, 0.0, 1.0, 1.0]), 1)
 
 
 def _line(poles: Points, knots: Vector, degree: int) -> Any:

@@ -15,6 +15,7 @@ from bladecad.brep.faces import plane_face, sample_surface, spline_face
 from bladecad.brep.kernel import kernel
 from bladecad.brep.limits import Limits
 from bladecad.brep.names import (
+    AIRFOIL,
     HUB,
     LEADING_EDGE,
     PRESSURE_SIDE,
@@ -22,13 +23,22 @@ from bladecad.brep.names import (
     TIP,
     TRAILING_EDGE,
     FaceName,
+    expected_counts,
 )
 from bladecad.brep.outline import check_fold, check_sides, is_round
 from bladecad.brep.sew import sew
 from bladecad.brep.witnesses import Witnesses, believe, hear_witnesses
 from bladecad.errors import GeometryError
 from bladecad.surface.patch import SplinePatch
+from bladecad.surface.zones import Division, Faces, Part, divide
 
+NAMES: Final[Mapping[Part, FaceName]] = {
+    "suction": SUCTION_SIDE,
+    "pressure": PRESSURE_SIDE,
+    "leading": LEADING_EDGE,
+    "trailing": TRAILING_EDGE,
+    "round": AIRFOIL,
+}
 USUAL: Final = Limits()
 
 
@@ -39,17 +49,24 @@ class Solid:
 
     shape     : the cadquery solid, normals outward
     faces     : its faces by name: SUCTION_SIDE, PRESSURE_SIDE, HUB, TIP, and LEADING_EDGE or
-                TRAILING_EDGE where that edge is blunt
+                TRAILING_EDGE where that edge is blunt or was asked for; or AIRFOIL, HUB, TIP
     witnesses : what the kernel and the quadrature said
+    moved     : largest distance by which the faces round an edge are off the patches, mm
     """
 
     shape: cq.Solid
     faces: Mapping[str, cq.Face]
     witnesses: Witnesses
+    moved: float = 0.0
 
 
 def build_solid(
-    suction: SplinePatch, pressure: SplinePatch, *, volume: float, limits: Limits = USUAL
+    suction: SplinePatch,
+    pressure: SplinePatch,
+    *,
+    volume: float,
+    limits: Limits = USUAL,
+    faces: Faces = 2,
 ) -> Solid:
     """Close the two sides of a blade to a solid, and believe it only on its witnesses.
 
@@ -62,6 +79,9 @@ def build_solid(
         mm^3, from a quadrature over the patches and ruled ends that never met the kernel.
     limits : Limits
         What the solid is held to.
+    faces : {2, 4, 1}
+        The sides as two faces; with a face of its own round each round edge; or one closed face
+        all the way round. Blunt edges keep their face. See `surface.zones.divide`.
 
     Raises
     ------
@@ -78,12 +98,16 @@ def build_solid(
     if not (math.isfinite(volume) and volume > 0):
         raise GeometryError(f"the quadrature volume is {volume} mm^3; the sides bound nothing")
     check_sides(suction, pressure, limits)
+    suction, pressure, plane = flatten_ends(suction, pressure, limits.planar)
+    division = divide(suction, pressure, faces, allowed=limits.smooth)
     with kernel("closing the solid"):
-        faces = _faces(suction, pressure, limits)
-        shape, named = sew(faces, limits.gap)
-        witnesses = hear_witnesses(shape, faces=len(faces), quadrature=volume)
+        around = _around(division)
+        made = {name: spline_face(patch) for name, patch in around.items()}
+        made |= {end: _cap_face(division, around, end, plane, limits) for end in (HUB, TIP)}
+        shape, named = sew(made, limits.gap)
+        witnesses = hear_witnesses(shape, expected=_counts(division, plane), quadrature=volume)
     believe(witnesses, limits)
-    return Solid(shape, named, witnesses)
+    return Solid(shape, named, witnesses, division.moved)
 
 
 def sample_face(solid: Solid, name: FaceName, u: Vector, t: Vector) -> Array:
@@ -98,23 +122,35 @@ def sample_face(solid: Solid, name: FaceName, u: Vector, t: Vector) -> Array:
         return sample_surface(solid.faces[name], u, t)
 
 
-def _faces(suction: SplinePatch, pressure: SplinePatch, limits: Limits) -> dict[FaceName, cq.Face]:
-    suction, pressure, plane = flatten_ends(suction, pressure, limits.planar)
-    faces: dict[FaceName, cq.Face] = {
-        SUCTION_SIDE: spline_face(suction),
-        PRESSURE_SIDE: spline_face(pressure),
-        HUB: _cap_face(cap(suction, pressure, 0), HUB, plane[0], limits),
-        TIP: _cap_face(cap(suction, pressure, -1), TIP, plane[1], limits),
-    }
+def _around(division: Division) -> dict[FaceName, SplinePatch]:
+    """The patches around the blade, the faces of blunt edges among them."""
+    suction, pressure = division.suction, division.pressure
+    around = {NAMES[zone.part]: zone.patch for zone in division.zones}
     if not is_round(suction, pressure, 0):
-        faces[LEADING_EDGE] = spline_face(edge_strip(suction, pressure, 0))
+        around[LEADING_EDGE] = edge_strip(suction, pressure, 0)
     if not is_round(suction, pressure, -1):
-        faces[TRAILING_EDGE] = spline_face(edge_strip(suction, pressure, -1))
-    return faces
+        around[TRAILING_EDGE] = edge_strip(suction, pressure, -1)
+    return around
 
 
-def _cap_face(section: SplinePatch, end: str, plane: bool, limits: Limits) -> cq.Face:
-    if plane:
-        return plane_face(section)
+def _cap_face(
+    division: Division,
+    around: Mapping[FaceName, SplinePatch],
+    end: FaceName,
+    plane: tuple[bool, bool],
+    limits: Limits,
+) -> cq.Face:
+    row = 0 if end == HUB else -1
+    if plane[row]:
+        return plane_face(list(around.values()), row)
+    section = cap(division.suction, division.pressure, row)
     check_fold(section, end, limits)
     return spline_face(section)
+
+
+def _counts(division: Division, plane: tuple[bool, bool]) -> tuple[int, int, int]:
+    """Vertices, edges and faces; on a ruled end a face round an edge has a vertex there."""
+    around = len(_around(division))
+    turns = sum(len(zone.stretches) - 1 for zone in division.zones)
+    hub, tip = (around if flat else around + turns for flat in plane)
+    return expected_counts(around, hub, tip)

@@ -14,7 +14,6 @@ from OCP.TopExp import TopExp
 from OCP.TopTools import TopTools_IndexedDataMapOfShapeListOfShape
 
 from bladecad.brep.limits import Limits
-from bladecad.brep.names import expected_counts
 from bladecad.errors import GeometryError
 
 # Relative. The default of GProp is off by 1e-4 to 1e-3 on such faces; asked for 1e-7 it believes
@@ -58,13 +57,15 @@ class Witnesses:
         return abs(self.volume / self.quadrature - 1)
 
 
-def hear_witnesses(solid: cq.Solid, *, faces: int, quadrature: float) -> Witnesses:
-    """Ask the kernel about a solid that should have so many faces and this volume in mm^3."""
+def hear_witnesses(
+    solid: cq.Solid, *, expected: tuple[int, int, int], quadrature: float
+) -> Witnesses:
+    """Ask the kernel about a solid that should have these counts and this volume in mm^3."""
     edges = solid.Edges()
     return Witnesses(
         valid=solid.isValid(),
         counts=(len(solid.Vertices()), len(edges), len(solid.Faces())),
-        expected=expected_counts(faces),
+        expected=expected,
         free_edges=_free_edges(solid),
         edge_tolerance=max(BRep_Tool.Tolerance_s(edge.wrapped) for edge in edges),
         volume=volume(solid),
