@@ -55,13 +55,13 @@ def loft(surface: BladeSurface, *, tolerance: float) -> Loft:
     at once: least squares on graded samples, the first and last three poles from X, X' and X'' at
     the ends, so that the patches meet as S does.
     """
-    breaks = _first_breaks(surface)
+    breaks = first_breaks(surface)
     while len(breaks) <= MOST:
         suction, pressure = _lofted(surface, breaks)
         error = _errors(surface, (suction, pressure), breaks)
         if error.max() <= SAFE * tolerance:
             return Loft(suction, pressure, float(error.max()))
-        breaks = _halved(breaks, error > SAFE * tolerance)
+        breaks = halved(breaks, error > SAFE * tolerance)
     raise GeometryError(
         f"the loft is still {1e3 * error.max():.3g} um from the surface with {MOST} spans, "
         f"{1e3 * tolerance:.3g} um are allowed; fit with a larger --tolerance"
@@ -74,14 +74,14 @@ def graded(count: int) -> Vector:
     return np.asarray(0.5 * (1.0 + np.tanh(4.5 * x) / np.tanh(4.5)))
 
 
-def _first_breaks(surface: BladeSurface) -> Vector:
+def first_breaks(surface: BladeSurface) -> Vector:
     """A few breaks, closer at the edges, and those where the flows themselves are restarted."""
     own = [getattr(b, "knots", np.empty(0)) for s in SIDES for b in surface.side(s).bases]
     breaks = np.unique(np.concatenate([graded(START + 1), *own]))
     return np.asarray(breaks[np.diff(breaks, prepend=-1.0) > 1e-9])
 
 
-def _halved(breaks: Vector, poor: Mask) -> Vector:
+def halved(breaks: Vector, poor: Mask) -> Vector:
     """Halve the poor spans, and any longer one beside them: errors leak out of long neighbours."""
     width = np.diff(breaks)
     beside = np.zeros_like(poor)
@@ -93,9 +93,9 @@ def _halved(breaks: Vector, poor: Mask) -> Vector:
 
 def _lofted(surface: BladeSurface, breaks: Vector) -> tuple[SplinePatch, SplinePatch]:
     knots = clamped(breaks, DEGREE)
-    samples, weights = _gauss(breaks, 5)
+    samples, weights = gauss(breaks, 5)
     on_suction, on_pressure = (
-        _poles(surface.side(s)(samples), _ends(surface, s), knots, samples, weights) for s in SIDES
+        curve_poles(surface.side(s)(samples), _ends(surface, s), knots, samples, weights) for s in SIDES
     )
     for column, kind in ((0, surface.le), (-1, surface.te)):
         if kind != "blunt":
@@ -114,7 +114,7 @@ def _ends(surface: BladeSurface, name: SideName) -> Array:
     return np.array([[side(np.array([end]), r)[:, 0] for r in range(ENDS)] for end in (0.0, 1.0)])
 
 
-def _poles(curves: Array, ends: Array, knots: Vector, samples: Vector, weights: Vector) -> Array:
+def curve_poles(curves: Array, ends: Array, knots: Vector, samples: Vector, weights: Vector) -> Array:
     """Poles of the section curves, (m, n, 3)."""
     M = basis(knots, DEGREE, samples)
     n = M.shape[1]
@@ -134,7 +134,7 @@ def _end_rows(knots: Vector, end: float) -> Array:
     return np.concatenate([basis(knots, DEGREE, np.array([end]), r) for r in range(ENDS)])
 
 
-def _gauss(breaks: Vector, count: int) -> tuple[Vector, Vector]:
+def gauss(breaks: Vector, count: int) -> tuple[Vector, Vector]:
     """Gauss-Legendre places and weights in every span."""
     nodes, weights = np.polynomial.legendre.leggauss(count)
     half = 0.5 * np.diff(breaks)
