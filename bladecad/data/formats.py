@@ -13,7 +13,9 @@ from bladecad.data import (
     geomturbo,
     ibl,
     manufacturing,
+    nominal_points,
     points,
+    sldcrv,
     surfaces,
     turbogrid,
 )
@@ -47,6 +49,7 @@ FORMATS = (
     Format("AutoGrid geomTurbo", (".geomturbo",), geomturbo.recognises, geomturbo.read),
     Format("BladeGen .inf", (".inf",), turbogrid.recognises_inf, turbogrid.read_inf),
     Format("Creo .ibl", (".ibl",), ibl.recognises, ibl.read),
+    Format("PC-DMIS nominal", (".nom",), nominal_points.recognises, nominal_points.read),
     Format("NASA manufacturing table", (".csv",), manufacturing.recognises, manufacturing.read),
     Format("NASA surface table", (".dat", ".txt"), surfaces.recognises, surfaces.read),
     Format(
@@ -54,6 +57,7 @@ FORMATS = (
     ),
     Format("table of points", PLAIN, csv.recognises, csv.read, numbered=True),
     Format("TurboGrid", (".curve", ".crv"), turbogrid.recognises, turbogrid.read),
+    Format("SolidWorks curve", (".sldcrv",), sldcrv.recognises, sldcrv.read, numbered=True),
     Format("points", PLAIN, points.recognises, points.read, numbered=True),
 )
 

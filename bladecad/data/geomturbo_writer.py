@@ -31,8 +31,8 @@ def write_geomturbo(sections: Sections, path: Path) -> None:
         blade += [word, "SECTIONAL", f"{len(sides)}"]
         blade += [line for i, pair in enumerate(sides, 1) for line in _rows(i, pair[k])]
     geometry = _block("nibladegeometry", ["TYPE GEOMTURBO", *blade])
-    row = ["NAME blade row", "TYPE normal", *_count("PERIODICITY", sections.row.blade_count)]
-    row += _block("NIBlade", ["NAME main blade", *geometry])
+    row = ["NAME row 1", "TYPE normal", *_count("PERIODICITY", sections.row.blade_count)]
+    row += _block("NIBlade", ["NAME Main Blade", *geometry])
     lines = ["GEOMETRY TURBO", "VERSION 5.5", *_channel(sections), *_block("nirow", row)]
     lines += ["NI_END GEOMTURBO", "", "NI_BEGIN GEOMETRY", "NI_END GEOMETRY"]
     write_text(path, "\n".join(lines) + "\n")
@@ -53,9 +53,9 @@ def _channel(sections: Sections) -> Lines:
     curves = {"hub": sections.row.hub, "shroud": sections.row.shroud}
     lines: Lines = []
     for word, zr in curves.items():
-        lines += _basic_curve(f"{word}_curve", zr / 1000) if len(zr) else []
+        lines += _basic_curve(f"{word}_crv_1", zr / 1000) if len(zr) else []
     for word in (word for word, zr in curves.items() if len(zr)):
-        ends = [f"VERTEX CURVE_P {word}_curve {u}" for u in (0, 1)]
+        ends = [f"VERTEX CURVE_P {word}_crv_1 {u}" for u in (0, 1)]
         lines += _block(f"channel_curve {word}", [f"NAME {word}", *ends])
     return _block("CHANNEL", lines)
 

@@ -4,11 +4,15 @@
     17.6667508  -2.09768896  0.0306973  le1
 
 Text after `#` is free, `##` is a comment. Tags le1, le2, te1, te2 mark the edges, two a blunt one.
+Which side the loops run along first, from the leading edge, stands in a comment where it is known.
 """
 
 from __future__ import annotations
 
+import re
+from dataclasses import replace
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 
@@ -17,12 +21,14 @@ from bladecad.data import beside
 from bladecad.data.blocks import Block, blocks
 from bladecad.data.draft import Draft
 from bladecad.data.loops import edge_tags, loop
-from bladecad.data.sections import Section, Sections
+from bladecad.data.sections import Arc, Section, Sections
 from bladecad.data.table import AXES, UNITS
 from bladecad.data.text import Text, fields, read_text, table, write_text
 from bladecad.errors import DataError
 
 TAGS = ("le", "le1", "le2", "te", "te1", "te2")
+ORDER: Final = "## in loop order, from the leading to the trailing edge: "
+SIDES: Final[dict[str, Arc]] = {"suction side": "first", "pressure side": "second"}
 
 
 def recognises(text: Text) -> bool:
@@ -42,7 +48,8 @@ def recognises_inf(text: Text) -> bool:
 
 def read(text: Text) -> Draft:
     """Read the sections of a profile, with what the `.inf` beside it says."""
-    sections = tuple(_section(text, block, k) for k, block in enumerate(blocks(text), 1))
+    suction = _suction(text)
+    sections = tuple(_section(text, block, k, suction) for k, block in enumerate(blocks(text), 1))
     inf = _inf_of(text.path)
     keys = _keys(inf) if inf else {}
     draft = Draft(
@@ -73,7 +80,7 @@ def read_inf(text: Text) -> Draft:
 
 def write_turbogrid(sections: Sections, path: Path) -> None:
     """Write profile, `.inf`, hub and shroud, in mm, under the name of `path`."""
-    write_text(path, "\n".join(_profile(s) for s in sections.sections))
+    write_text(path, _order(sections) + "\n".join(_profile(s) for s in sections.sections))
     curves = {"hub": sections.row.hub, "shroud": sections.row.shroud}
     names = {word: f"{path.stem}_{word}{path.suffix}" for word, zr in curves.items() if len(zr)}
     for word, name in names.items():
@@ -90,10 +97,24 @@ def write_turbogrid(sections: Sections, path: Path) -> None:
     write_text(path.with_suffix(".inf"), "\n".join(keys) + "\n")
 
 
-def _section(text: Text, block: Block, k: int) -> Section:
+def _section(text: Text, block: Block, k: int, suction: Arc | None) -> Section:
     last = [fields(text.lines[i].lower())[-1] for i in block.rows]
     tags = {i: tag for i, tag in enumerate(last) if tag in TAGS}
-    return loop(block.name(f"{k}"), table(text, block.rows), tags)
+    section = loop(block.name(f"{k}"), table(text, block.rows), tags)
+    return replace(section, suction=suction if section.le and section.te else None)
+
+
+def _suction(text: Text) -> Arc | None:
+    """Which arc is the suction side, as the comment of `write_turbogrid` says."""
+    said = [re.sub(r"\s+", " ", line).strip().lower() for line in text.lines]
+    return next((arc for side, arc in SIDES.items() if f"{ORDER}{side}" in said), None)
+
+
+def _order(sections: Sections) -> str:
+    """The comment on the sides; none where they are not known or differ from loop to loop."""
+    known = {s.suction if s.le and s.te else None for s in sections.sections}
+    said = [f"{ORDER}{side}\n" for side, arc in SIDES.items() if known == {arc}]
+    return "".join(said)
 
 
 def _keys(text: Text) -> dict[str, str]:
