@@ -65,13 +65,13 @@ if TYPE_CHECKING:
     from bladecad.pipeline.scan import build_scan as build_scan
     from bladecad.pipeline.scan_build import ScanBuild as ScanBuild
     from bladecad.pipeline.scan_settings import ScanSettings as ScanSettings
-    from bladecad.scans.airfoil import Airfoil as Airfoil
-    from bladecad.scans.airfoil import find_airfoil as find_airfoil
-    from bladecad.scans.slicing import slice_airfoil as slice_airfoil
-    from bladecad.scans.support import Gap as Gap
-    from bladecad.scans.support import find_gaps as find_gaps
-    from bladecad.scans.whole import WholeFit as WholeFit
-    from bladecad.scans.whole import fit_scan as fit_scan
+    from bladecad.scans.finding.airfoil import Airfoil as Airfoil
+    from bladecad.scans.finding.airfoil import find_airfoil as find_airfoil
+    from bladecad.scans.slicing.slices import slice_airfoil as slice_airfoil
+    from bladecad.scans.judging.support import Gap as Gap
+    from bladecad.scans.judging.support import find_gaps as find_gaps
+    from bladecad.scans.fitting.whole import WholeFit as WholeFit
+    from bladecad.scans.fitting.whole import fit_scan as fit_scan
     from bladecad.surface.blade import BladeSurface as BladeSurface
     from bladecad.surface.loft import Loft as Loft
     from bladecad.surface.loft import loft as loft

@@ -21,7 +21,7 @@ from bladecad.surface.triangulate import BladeMesh
 
 if TYPE_CHECKING:
     from bladecad.brep.solid import Solid
-    from bladecad.scans.scanned import Scanned
+    from bladecad.scans.judging.scanned import Scanned
 
 
 class Asked(Protocol):

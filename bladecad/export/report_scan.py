@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 
 from bladecad.export.report_rows import row_numbers
-from bladecad.scans.airfoil import Airfoil
-from bladecad.scans.scanned import Scanned
-from bladecad.scans.support import Gap
-from bladecad.scans.systematic import FEWEST, Place, Systematic
-from bladecad.scans.whole import WholeFit
-from bladecad.scans.worst import WorstPlace
+from bladecad.scans.finding.airfoil import Airfoil
+from bladecad.scans.fitting.whole import WholeFit
+from bladecad.scans.judging.scanned import Scanned
+from bladecad.scans.judging.support import Gap
+from bladecad.scans.judging.systematic import FEWEST, Place, Systematic
+from bladecad.scans.judging.worst import WorstPlace
 
 Report = dict[str, Any]
 

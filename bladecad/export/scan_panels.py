@@ -13,7 +13,7 @@ from bladecad.export.product import Product
 from bladecad.surface.loft import SIDES
 
 if TYPE_CHECKING:
-    from bladecad.scans.scanned import Scanned
+    from bladecad.scans.judging.scanned import Scanned
 
 LEAST: Final = 3e-3  # of the tolerance: means below it are as good as none
 

@@ -17,9 +17,9 @@ from matplotlib.patches import Patch
 from bladecad.arrays import Array, Points, Vector
 from bladecad.export.panels import COLOUR, GREY, INK, RED
 from bladecad.export.picture import STYLE, save_figure
+from bladecad.scans.judging.scanned import Scanned
+from bladecad.scans.judging.support import Gap
 from bladecad.scans.moved import moved_points
-from bladecad.scans.scanned import Scanned
-from bladecad.scans.support import Gap
 from bladecad.surface.blade import BladeSurface, SideName, normals
 from bladecad.surface.loft import SIDES, graded
 

@@ -11,7 +11,7 @@ from bladecad.export.product import Product
 from bladecad.surface.blade import BladeSurface
 
 if TYPE_CHECKING:
-    from bladecad.scans.scanned import Scanned
+    from bladecad.scans.judging.scanned import Scanned
 
 SHOWN: Final = 500  # points of a scan that stand for a section
 WIDEST: Final = 0.02  # of the span, from which they are taken, either way

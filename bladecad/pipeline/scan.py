@@ -22,16 +22,16 @@ from bladecad.pipeline.clock import Clock, Progress
 from bladecad.pipeline.scan_build import ScanBuild
 from bladecad.pipeline.scan_named import named
 from bladecad.pipeline.scan_settings import ScanSettings
-from bladecad.scans.airfoil import Airfoil, find_airfoil
 from bladecad.scans.blade_frame import blade_frame
+from bladecad.scans.finding.airfoil import Airfoil, find_airfoil
+from bladecad.scans.fitting.whole import WholeFit, fit_scan
+from bladecad.scans.judging.scanned import Scanned, deviation_of_scan
+from bladecad.scans.judging.support import find_gaps
+from bladecad.scans.judging.systematic import systematic
+from bladecad.scans.judging.worst import worst_of_scan
 from bladecad.scans.moved import moved_sections, moved_whole
-from bladecad.scans.parted import parted
-from bladecad.scans.scanned import Scanned, deviation_of_scan
-from bladecad.scans.slicing import slice_airfoil
-from bladecad.scans.support import find_gaps
-from bladecad.scans.systematic import systematic
-from bladecad.scans.whole import WholeFit, fit_scan
-from bladecad.scans.worst import worst_of_scan
+from bladecad.scans.slicing.parted import parted
+from bladecad.scans.slicing.slices import slice_airfoil
 
 USUAL: Final = ScanSettings()
 MACHINE: Final[Axis] = "x"  # in the frame of the blade

@@ -18,11 +18,11 @@ from bladecad.fit.blade import BladeFit
 from bladecad.fit.left_out import LeftOut
 from bladecad.pipeline.body import Body
 from bladecad.pipeline.scan_settings import ScanSettings
-from bladecad.scans.airfoil import Airfoil
-from bladecad.scans.scanned import Scanned
-from bladecad.scans.support import Gap
-from bladecad.scans.systematic import ERRORS
-from bladecad.scans.whole import WholeFit
+from bladecad.scans.finding.airfoil import Airfoil
+from bladecad.scans.fitting.whole import WholeFit
+from bladecad.scans.judging.scanned import Scanned
+from bladecad.scans.judging.support import Gap
+from bladecad.scans.judging.systematic import ERRORS
 from bladecad.surface.blade import BladeSurface
 from bladecad.surface.loft import Loft
 from bladecad.surface.triangulate import BladeMesh

@@ -12,7 +12,7 @@ from bladecad.curves.naming import Hand, Lead
 from bladecad.data.sections import Axis, Unit
 from bladecad.errors import ToleranceError
 from bladecad.fit.blade import Order
-from bladecad.scans.height import Height
+from bladecad.scans.finding.height import Height
 
 Direction: TypeAlias = Axis | tuple[float, float, float]
 STATIONS: Final = 21

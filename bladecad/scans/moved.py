@@ -18,7 +18,7 @@ from bladecad.fit.sidefit import SideFit
 from bladecad.surface.blade import BladeSurface
 
 if TYPE_CHECKING:
-    from bladecad.scans.whole import WholeFit
+    from bladecad.scans.fitting.whole import WholeFit
 
 
 class WithOne(Protocol):

@@ -13,8 +13,8 @@ from bladecad.data.sections import Source
 from bladecad.deviation.nominal import nominal_of
 from bladecad.deviation.project import project
 from bladecad.errors import DataError
-from bladecad.scans.airfoil import find_airfoil
-from bladecad.scans.slicing import slice_airfoil
+from bladecad.scans.finding.airfoil import find_airfoil
+from bladecad.scans.slicing.slices import slice_airfoil
 from tests.scans.truth import AIRFOIL, FOOT, SHARED, scan_of, truth_surface
 
 TURBINE = SHARED / "scan-turbine-blade" / "turbineblade.ply"

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from bladecad.fit.joint import edge_conditions
-from bladecad.scans.freedom import Pair, freedom, local_poles, moved
-from bladecad.scans.knots import breaks_along
-from bladecad.scans.laid_on import laid_on
-from bladecad.scans.local import Splines
-from bladecad.scans.normal import accumulate, dense
-from bladecad.scans.solve import best_move
+from bladecad.scans.fitting.freedom import Pair, freedom, local_poles, moved
+from bladecad.scans.fitting.knots import breaks_along
+from bladecad.scans.fitting.laid_on import laid_on
+from bladecad.scans.fitting.local import Splines
+from bladecad.scans.fitting.normal import accumulate, dense
+from bladecad.scans.fitting.solve import best_move
 from bladecad.splines import basis
 from bladecad.surface.loft import SIDES
 from tests.scans.truth import truth_surface

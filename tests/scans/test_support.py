@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bladecad.deviation.project import project
-from bladecad.scans.support import find_gaps, support_of, supported
+from bladecad.scans.judging.support import find_gaps, support_of, supported
 from tests.scans.truth import inside, nominal_for, scan_of, truth_surface
 
 BLADES = ("synthetic", "synthetic-small", "rotor37")

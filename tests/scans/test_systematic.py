@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from bladecad.scans.systematic import FEWEST, systematic
+from bladecad.scans.judging.systematic import FEWEST, systematic
 from tests.deviation.scanned import placed, strewn
 
 SIGMA = 0.03

@@ -11,9 +11,9 @@ from bladecad.deviation.nominal import nominal_of
 from bladecad.deviation.project import project
 from bladecad.errors import DataError
 from bladecad.fit.joint import edge_conditions
-from bladecad.scans.airfoil import find_airfoil
-from bladecad.scans.slicing import slice_airfoil
-from bladecad.scans.whole import fit_scan
+from bladecad.scans.finding.airfoil import find_airfoil
+from bladecad.scans.fitting.whole import fit_scan
+from bladecad.scans.slicing.slices import slice_airfoil
 from bladecad.surface.loft import SIDES, graded
 from tests.scans.truth import OUTLIER, scan_of, truth_surface
 

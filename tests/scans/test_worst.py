@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from bladecad.deviation.feet import Feet
-from bladecad.scans.support import Gap
-from bladecad.scans.worst import worst_of_scan
+from bladecad.scans.judging.support import Gap
+from bladecad.scans.judging.worst import worst_of_scan
 from tests.deviation.scanned import blade, feet_at, strewn
 
 SIGMA = 0.01

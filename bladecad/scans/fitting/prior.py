@@ -7,8 +7,8 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from bladecad.arrays import Array, Vector
-from bladecad.scans.freedom import Freedom, Pair, local_poles
-from bladecad.scans.robust import MAD
+from bladecad.scans.fitting.freedom import Freedom, Pair, local_poles
+from bladecad.scans.fitting.robust import MAD
 from bladecad.surface.blade import BladeSurface
 
 ALONG_U: Final = 0.1

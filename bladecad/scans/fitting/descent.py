@@ -14,13 +14,13 @@ from bladecad.arrays import Array, Mask, Points, Vector
 from bladecad.deviation.feet import Feet
 from bladecad.deviation.nominal import Nominal, nominal_of
 from bladecad.deviation.project import project
-from bladecad.scans.freedom import Freedom, local_poles, moved
-from bladecad.scans.local import ORDER
-from bladecad.scans.neighbours import Scatter, of_the_airfoil, scatter
-from bladecad.scans.normal import Normal, accumulate
-from bladecad.scans.prior import Roughness
-from bladecad.scans.robust import weights
-from bladecad.scans.solve import best_move
+from bladecad.scans.fitting.freedom import Freedom, local_poles, moved
+from bladecad.scans.fitting.local import ORDER
+from bladecad.scans.fitting.neighbours import Scatter, of_the_airfoil, scatter
+from bladecad.scans.fitting.normal import Normal, accumulate
+from bladecad.scans.fitting.prior import Roughness
+from bladecad.scans.fitting.robust import weights
+from bladecad.scans.fitting.solve import best_move
 from bladecad.surface.blade import BladeSurface, normals
 from bladecad.surface.loft import SIDES, graded
 

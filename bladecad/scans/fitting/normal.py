@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bladecad.arrays import Array, Vector
-from bladecad.scans.local import ORDER, Splines
+from bladecad.scans.fitting.local import ORDER, Splines
 
 AROUND: Final = 2 * ORDER - 1  # neighbours of a function, itself among them
 

@@ -12,7 +12,7 @@ from bladecad.curves.sides import BladeLines
 from bladecad.data.sections import Section, Sections, Source
 from bladecad.fit.joint import edge_conditions, unit_rows
 from bladecad.fit.sidefit import Basis, SideFit
-from bladecad.scans.local import Splines
+from bladecad.scans.fitting.local import Splines
 from bladecad.surface.blade import BladeSurface
 from bladecad.surface.loft import SIDES, graded
 

@@ -19,8 +19,8 @@ from bladecad.errors import DataError, FitError
 from bladecad.fit.blade import BladeFit, Order
 from bladecad.fit.judge import SIDES, Bench, Errors, SideErrors, judge
 from bladecad.fit.order import fit_blade
-from bladecad.scans.laid_on import sections_of
-from bladecad.scans.spline_surface import Smooth, stiffened
+from bladecad.scans.fitting.laid_on import sections_of
+from bladecad.scans.fitting.spline_surface import Smooth, stiffened
 from bladecad.surface.loft import graded
 
 log = logging.getLogger(__name__)

@@ -9,12 +9,12 @@ import numpy as np
 
 from bladecad.arrays import Mask, Points, Vector, seal
 from bladecad.errors import DataError
-from bladecad.scans.axis import stacking_axis
-from bladecad.scans.height import Height, planes
-from bladecad.scans.refusals import no_blade
-from bladecad.scans.skeleton import Skeleton, skeleton
-from bladecad.scans.slabs import Slabs, slabs
-from bladecad.scans.span import beyond, cut, limits, run
+from bladecad.scans.finding.axis import stacking_axis
+from bladecad.scans.finding.height import Height, planes
+from bladecad.scans.finding.refusals import no_blade
+from bladecad.scans.finding.skeleton import Skeleton, skeleton
+from bladecad.scans.finding.slabs import Slabs, slabs
+from bladecad.scans.finding.span import beyond, cut, limits, run
 
 WORTH: Final = 0.12  # of the points, times how well they are followed: less is no blade
 ROOT: Final = 4  # slabs beyond the airfoil larger than it: a root or platform, no cap

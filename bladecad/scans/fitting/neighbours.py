@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from bladecad.arrays import Mask, Vector
 from bladecad.deviation.feet import Feet
-from bladecad.scans.robust import MAD
+from bladecad.scans.fitting.robust import MAD
 
 STRIPS: Final = 0.7  # of the usual spacing of points: width of the strips that are walked along
 ZONES: Final = (0.02, 0.98)  # t between which is the body, beside the edges

@@ -7,8 +7,8 @@ from typing import Final
 import numpy as np
 
 from bladecad.arrays import Points, Vector
-from bladecad.scans.height import planes
-from bladecad.scans.slabs import Slabs, alike, longest_run, slabs
+from bladecad.scans.finding.height import planes
+from bladecad.scans.finding.slabs import Slabs, alike, longest_run, slabs
 
 DIRECTIONS: Final = 120  # over the half sphere: none is more than 10 degrees away
 FEW: Final = 5_000  # points on which all of them are tried

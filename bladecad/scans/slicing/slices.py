@@ -11,13 +11,13 @@ from bladecad.arrays import Points, Vector
 from bladecad.curves.plausible import first_crossing
 from bladecad.data.sections import Section, Sections, Source
 from bladecad.errors import DataError
-from bladecad.scans.airfoil import Airfoil
-from bladecad.scans.capsule import Capsule
-from bladecad.scans.evenly import skin
-from bladecad.scans.renew import DENSE, renewed
-from bladecad.scans.skeleton import Skeleton, legendre, skeleton
-from bladecad.scans.slabs import slabs
-from bladecad.scans.smooth import smooth
+from bladecad.scans.finding.airfoil import Airfoil
+from bladecad.scans.finding.evenly import skin
+from bladecad.scans.finding.skeleton import Skeleton, legendre, skeleton
+from bladecad.scans.finding.slabs import slabs
+from bladecad.scans.slicing.capsule import Capsule
+from bladecad.scans.slicing.renew import DENSE, renewed
+from bladecad.scans.slicing.smooth import smooth
 
 A_SECTION: Final = 6_000  # points that one is found from, where there are so many
 SPREAD: Final = 250_000  # places on a mesh

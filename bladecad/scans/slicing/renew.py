@@ -8,8 +8,8 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from bladecad.arrays import Array, Points, Vector
-from bladecad.scans.capsule import graded
-from bladecad.scans.smooth import periodic, smooth
+from bladecad.scans.slicing.capsule import graded
+from bladecad.scans.slicing.smooth import periodic, smooth
 
 DENSE: Final = 1920  # points of a loop between which it is straight
 FAR: Final = 0.06  # of the length of the loop: points beyond are none of it

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bladecad.arrays import Array, Mask, Points, Vector
-from bladecad.scans.skeleton import Skeleton, legendre, robust, skeleton
-from bladecad.scans.slabs import FEWEST, Slabs, alike, longest_run, slabs
+from bladecad.scans.finding.skeleton import Skeleton, legendre, robust, skeleton
+from bladecad.scans.finding.slabs import FEWEST, Slabs, alike, longest_run, slabs
 
 Counts = NDArray[np.int64]
 

@@ -11,7 +11,7 @@ from scipy.linalg import block_diag, lstsq, null_space, svd
 from bladecad.arrays import Array, Vector, seal
 from bladecad.fit.joint import edge_conditions, unit_rows
 from bladecad.fit.sidefit import SideFit
-from bladecad.scans.local import Splines
+from bladecad.scans.fitting.local import Splines
 from bladecad.surface.blade import BladeSurface
 from bladecad.surface.loft import graded
 

@@ -10,11 +10,11 @@ import numpy as np
 from bladecad.arrays import Array, Mask, seal
 from bladecad.deviation.measure import Deviation, Row, row
 from bladecad.deviation.referee import confirm
-from bladecad.scans.airfoil import Airfoil
-from bladecad.scans.support import Gap
-from bladecad.scans.systematic import Systematic
-from bladecad.scans.whole import WholeFit
-from bladecad.scans.worst import RIM, WorstPlace
+from bladecad.scans.finding.airfoil import Airfoil
+from bladecad.scans.fitting.whole import WholeFit
+from bladecad.scans.judging.support import Gap
+from bladecad.scans.judging.systematic import Systematic
+from bladecad.scans.judging.worst import RIM, WorstPlace
 from bladecad.surface.triangulate import BladeMesh
 from bladecad.tolerance import EDGE_ZONE
 

@@ -12,7 +12,7 @@ from bladecad.curves.naming import Hand, Lead
 from bladecad.curves.repair import repaired
 from bladecad.curves.sides import BladeLines, split_sides
 from bladecad.data.sections import Sections
-from bladecad.scans.airfoil import Airfoil
+from bladecad.scans.finding.airfoil import Airfoil
 from bladecad.scans.moved import moved_lines, moved_sections
 
 ALONG: Final = 0.95  # cosine from which on a direction is no machine axis across the span

@@ -11,13 +11,13 @@ import numpy as np
 from bladecad.arrays import Points, Vector
 from bladecad.curves.sides import BladeLines
 from bladecad.errors import DataError
-from bladecad.scans.descent import descend
-from bladecad.scans.freedom import Freedom, freedom
-from bladecad.scans.knots import breaks_along
-from bladecad.scans.laid_on import laid_on, through
-from bladecad.scans.local import Splines
-from bladecad.scans.neighbours import Scatter
-from bladecad.scans.prior import roughness
+from bladecad.scans.fitting.descent import descend
+from bladecad.scans.fitting.freedom import Freedom, freedom
+from bladecad.scans.fitting.knots import breaks_along
+from bladecad.scans.fitting.laid_on import laid_on, through
+from bladecad.scans.fitting.local import Splines
+from bladecad.scans.fitting.neighbours import Scatter
+from bladecad.scans.fitting.prior import roughness
 from bladecad.surface.blade import BladeSurface
 
 log = logging.getLogger(__name__)

@@ -12,7 +12,7 @@ from scipy.ndimage import label, maximum_filter
 
 from bladecad.arrays import Array, Mask, Points, Vector, seal
 from bladecad.deviation.feet import Feet
-from bladecad.scans.cover import Cover, area_of, cover_of, nearest, tree_of
+from bladecad.scans.judging.cover import Cover, area_of, cover_of, nearest, tree_of
 from bladecad.surface.blade import BladeSurface, SideName
 
 SIDES: Final[tuple[SideName, SideName]] = ("suction", "pressure")

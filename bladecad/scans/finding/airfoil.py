@@ -12,12 +12,12 @@ from threadpoolctl import threadpool_limits
 from bladecad.arrays import Mask, Points, Vector, seal
 from bladecad.data.scan import Scan
 from bladecad.errors import DataError
-from bladecad.scans.evenly import skin
-from bladecad.scans.height import Height
-from bladecad.scans.located import Located, located
-from bladecad.scans.lonely import lonely
-from bladecad.scans.refusals import refuse_few_or_flat, refuse_several
-from bladecad.scans.skeleton import Skeleton
+from bladecad.scans.finding.evenly import skin
+from bladecad.scans.finding.height import Height
+from bladecad.scans.finding.located import Located, located
+from bladecad.scans.finding.lonely import lonely
+from bladecad.scans.finding.refusals import refuse_few_or_flat, refuse_several
+from bladecad.scans.finding.skeleton import Skeleton
 
 ENOUGH: Final = 150_000  # points that the airfoil is found from
 FAR: Final = 0.05  # of the chord: points further from the airfoil are no part of it

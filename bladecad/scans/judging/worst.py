@@ -12,8 +12,8 @@ from bladecad.arrays import Vector
 from bladecad.deviation.feet import Feet
 from bladecad.deviation.worst import Worst, worst_places
 from bladecad.deviation.zones import zone_of
-from bladecad.scans.support import Gap
-from bladecad.scans.systematic import LEVELS, Cells, cells_of
+from bladecad.scans.judging.support import Gap
+from bladecad.scans.judging.systematic import LEVELS, Cells, cells_of
 from bladecad.tolerance import EDGE_ZONE, uniform
 
 SHOWN: Final = 5

@@ -14,14 +14,14 @@ from bladecad.curves.sides import BladeLines
 from bladecad.deviation.feet import Feet
 from bladecad.deviation.nominal import nominal_of
 from bladecad.fit.blade import BladeFit, Order
-from bladecad.scans.descent import descend, standing
-from bladecad.scans.flows import errors_of, flows_of, sections_for
-from bladecad.scans.freedom import freedom
-from bladecad.scans.knots import breaks_along
-from bladecad.scans.local import Splines
-from bladecad.scans.neighbours import scatter
-from bladecad.scans.prior import roughness
-from bladecad.scans.spline_surface import DAMPING, FLOOR, Smooth, smooth_surface
+from bladecad.scans.fitting.descent import descend, standing
+from bladecad.scans.fitting.flows import errors_of, flows_of, sections_for
+from bladecad.scans.fitting.freedom import freedom
+from bladecad.scans.fitting.knots import breaks_along
+from bladecad.scans.fitting.local import Splines
+from bladecad.scans.fitting.neighbours import scatter
+from bladecad.scans.fitting.prior import roughness
+from bladecad.scans.fitting.spline_surface import DAMPING, FLOOR, Smooth, smooth_surface
 from bladecad.surface.blade import BladeSurface
 
 log = logging.getLogger(__name__)

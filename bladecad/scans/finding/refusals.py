@@ -11,10 +11,10 @@ from scipy.spatial import cKDTree
 
 from bladecad.arrays import Points, Vector
 from bladecad.errors import DataError
-from bladecad.scans.axis import stacking_axis
-from bladecad.scans.height import planes
-from bladecad.scans.lonely import lonely
-from bladecad.scans.skeleton import legendre
+from bladecad.scans.finding.axis import stacking_axis
+from bladecad.scans.finding.height import planes
+from bladecad.scans.finding.lonely import lonely
+from bladecad.scans.finding.skeleton import legendre
 
 FEWEST: Final = 600  # points from which a blade is told
 FLAT: Final = 1e-3  # of the largest extent, rms

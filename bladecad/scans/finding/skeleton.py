@@ -8,7 +8,7 @@ from typing import Final, final
 import numpy as np
 
 from bladecad.arrays import Array, Mask, Points, Vector, seal
-from bladecad.scans.slabs import Slabs
+from bladecad.scans.finding.slabs import Slabs
 
 ALONG: Final = 6  # degree of camber and thickness over the chord
 UP: Final = 4  # degree of both over the height

@@ -8,9 +8,9 @@ import numpy as np
 from scipy.linalg import solveh_banded
 
 from bladecad.arrays import Array
-from bladecad.scans.freedom import Freedom, Pair
-from bladecad.scans.local import ORDER
-from bladecad.scans.normal import Normal, dense
+from bladecad.scans.fitting.freedom import Freedom, Pair
+from bladecad.scans.fitting.local import ORDER
+from bladecad.scans.fitting.normal import Normal, dense
 
 COORDINATES: Final = ((0, 1), (1, 2))  # which product, xx xy yy, couples which coordinates
 

@@ -1,0 +1,1 @@
+"""What the points say of the finished surface: support, systematic deviation, worst places."""

@@ -1,0 +1,1 @@
+"""The airfoil of a scan cut into smooth, ordered sections."""
