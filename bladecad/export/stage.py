@@ -52,11 +52,14 @@ def check_file(file: str | os.PathLike[str], *, force: bool = False) -> None:
 
 
 @contextmanager
-def staged(folder: str | os.PathLike[str], *, force: bool = False) -> Iterator[Path]:
+def staged(
+    folder: str | os.PathLike[str], *, force: bool = False, report: str = REPORT
+) -> Iterator[Path]:
     """Give a folder to write into, whose files appear in `folder` once all is well.
 
     Whatever goes wrong inside, an interruption from the keyboard too, leaves `folder` as it was.
-    Files of an earlier blade that the new one lacks are removed, other files stay.
+    Files of an earlier blade, named under "files" in its `report`, are removed where the new one
+    lacks them; other files stay.
 
     Raises
     ------
@@ -69,7 +72,7 @@ def staged(folder: str | os.PathLike[str], *, force: bool = False) -> Iterator[P
     try:
         stage.mkdir()
         yield stage
-        _move(stage, folder)
+        _move(stage, folder, report)
     except OSError as error:
         raise _unwritable(folder, error) from error
     finally:
@@ -84,26 +87,30 @@ def _stage(folder: Path) -> Path:
     return anchor / f".bladecad.{os.getpid()}.part"
 
 
-def _move(stage: Path, folder: Path) -> None:
+def _move(stage: Path, folder: Path, report: str) -> None:
     """Move all files; into a folder that exists one by one, the report, which vouches, last."""
     if not folder.exists():
         folder.parent.mkdir(parents=True, exist_ok=True)
         stage.rename(folder)
         return
-    for stale in _earlier(folder):
+    for stale in _earlier(folder, report):
         stale.unlink(missing_ok=True)
-    for file in sorted(stage.iterdir(), key=lambda file: file.name == REPORT):
-        file.replace(folder / file.name)
+    files = [file for file in stage.rglob("*") if file.is_file()]
+    for file in sorted(files, key=lambda file: file.name == report):
+        target = folder / file.relative_to(stage)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        file.replace(target)
 
 
-def _earlier(folder: Path) -> list[Path]:
-    """The report of an earlier blade, and the files it names."""
-    report = folder / REPORT
+def _earlier(folder: Path, report: str) -> list[Path]:
+    """The report of an earlier blade, and the files it names, in the folder or below it."""
+    said = folder / report
     try:
-        named = [str(entry["file"]) for entry in json.loads(report.read_bytes())["files"]]
+        named = [Path(entry["file"]) for entry in json.loads(said.read_bytes())["files"]]
     except (OSError, ValueError, KeyError, TypeError):
         named = []
-    return [report, *(folder / name for name in named if Path(name).name == name)]
+    inside = [name for name in named if not name.is_absolute() and ".." not in name.parts]
+    return [said, *(folder / name for name in inside if not (folder / name).is_dir())]
 
 
 def _unwritable(folder: Path, error: OSError) -> ExportError:

@@ -1,0 +1,57 @@
+"""What sizes a blade takes where none are asked."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from bladecad.cfd.openfoam import Cells
+from bladecad.meshes.curvature import largest_curvature
+from bladecad.meshes.sizing import Sizing
+from bladecad.surface.blade import BladeSurface, EdgeKind
+
+A_CHORD: Final = 40.0  # steps, where no size is asked
+BASE: Final = 4.0  # cells of the box, in sizes
+AROUND: Final = 12.0  # reach of the box beyond the blade, in sizes
+RADII: Final = 2.0  # cells on a round edge, in its least radius
+SMALLEST: Final = 1.0 / 16.0  # cells on an edge, in sizes, where none are asked
+
+
+def sizing_for(
+    surface: BladeSurface,
+    *,
+    size: float | None = None,
+    chord_error: float = 0.01,
+    growth: float = 1.2,
+    edge: float | None = None,
+) -> Sizing:
+    """What is asked; where no size is, a fortieth of the longest chord, mm."""
+    if size is None:
+        ends = surface("suction", np.linspace(0.0, 1.0, 9), np.array([0.0, 1.0]))
+        size = float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).max()) / A_CHORD
+    return Sizing(size, chord_error, growth, edge)
+
+
+def cells_for(surface: BladeSurface, sizing: Sizing) -> Cells:
+    """Cells of a volume mesh to go with a sizing.
+
+    On an edge the size asked for it; where none is, twice its least radius, but no less than a
+    sixteenth of the size; of a blunt edge half its least width; of a sharp one a quarter of the
+    size.
+    """
+    size = sizing.size
+    le, te = _on_edge(surface, 0.0, surface.le, size), _on_edge(surface, 1.0, surface.te, size)
+    edge = sizing.edge or max(min(le, te), SMALLEST * size)
+    return Cells(size, min(edge, size), BASE * size, AROUND * size)
+
+
+def _on_edge(surface: BladeSurface, t: float, kind: EdgeKind, size: float) -> float:
+    u = np.linspace(0.0, 1.0, 41)
+    if kind == "round":
+        k = largest_curvature(surface, "suction", u, np.full(len(u), t))
+        return RADII / float(np.abs(k).max())
+    if kind == "sharp":
+        return 0.25 * size
+    across = surface("suction", u, np.array([t])) - surface("pressure", u, np.array([t]))
+    return 0.5 * float(np.linalg.norm(across, axis=2).min())
