@@ -40,8 +40,9 @@ def sections(
 ) -> Exit:
     """Cut a scan into sections, hub to tip, and write them in the format of the suffix, in mm.
 
-    .csv, .curve and .crv (TurboGrid), .geomTurbo (AutoGrid), .ibl, and points as .txt, .dat, .xyz
-    or .pts. The points are smoothed: they lie on the sections, not where the scanner saw them.
+    .csv, .curve and .crv (TurboGrid), .geomTurbo (AutoGrid), .ibl (Creo), .sldcrv (SolidWorks), and
+    points as .txt, .dat, .xyz or .pts. The points are smoothed: they lie on the sections, not where
+    the scanner saw them.
     """
     log_to_stderr(verbose)
     from bladecad.data.write import check_suffix, write_sections
@@ -56,7 +57,7 @@ def sections(
     )  # fmt: skip
     with progress(quiet=quiet) as tell:
         found = sections_of_scan(path, settings, progress=tell)
-        write_sections(found, output)
+        write_sections(found, output, force=force)
     if not quiet:
         for note in found.source.notes:
             typer.echo(f"note: {note}")

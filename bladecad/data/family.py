@@ -60,6 +60,18 @@ def siblings(path: Path) -> list[Path]:
     return sorted(found, key=lambda p: int(p.stem[len(stem) :])) if stem is not None else []
 
 
+def member(path: Path) -> Path:
+    """Return the file itself or, where there is none, the first of its family: `blade_01.sldcrv`.
+
+    So the name under which a family was written is a name to read it by.
+    """
+    if path.exists() or not path.parent.is_dir():
+        return path
+    found = [p for p in path.parent.iterdir() if p.suffix == path.suffix]
+    found = [p for p in found if re.fullmatch(re.escape(path.stem) + r"_\d+", p.stem)]
+    return min(found, default=path)
+
+
 def blade_in(folder: Path) -> Path:
     """Return the file to read in a folder: its `.inf`, or the one file or family of sections.
 

@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 from bladecad.data.checks import checked
 from bladecad.data.draft import settle
-from bladecad.data.family import blade_in, draft_of_blade, draft_of_list
+from bladecad.data.family import blade_in, draft_of_blade, draft_of_list, member
 from bladecad.data.sections import Axis, Sections, Unit
 from bladecad.errors import DataError
 
@@ -22,7 +22,8 @@ def read_sections(
     """Read a blade as its sections.
 
     The reader is picked by content; the suffix is only compared with it. One file of a numbered
-    family, `section_01` to `section_11`, stands for the whole; so do a folder and a list of files.
+    family, `section_01` to `section_11`, stands for the whole; so do their common name, `section`
+    with the suffix, a folder and a list of files.
 
     Parameters
     ----------
@@ -47,5 +48,5 @@ def read_sections(
         if not paths:
             raise DataError("no file to read; name one")
         return checked(settle(draft_of_list(paths), paths[0], unit, axis))
-    file = blade_in(Path(path)) if Path(path).is_dir() else Path(path)
+    file = blade_in(Path(path)) if Path(path).is_dir() else member(Path(path))
     return checked(settle(draft_of_blade(file), file, unit, axis))

@@ -49,7 +49,7 @@ def load_blade(
         If no flow follows the sections.
     """
     path = Path(path)
-    if _is_model(path):
+    if is_model(path):
         from bladecad.export.model_file import load as read_model
         from bladecad.export.model_file import load_machine
 
@@ -67,8 +67,9 @@ def load_blade(
     return BladeFile(path.stem, surface, sections.machine, fitted.errors.largest, sections, notes)
 
 
-def _is_model(path: Path) -> bool:
-    if path.is_dir():
+def is_model(path: Path) -> bool:
+    """Whether a file is a model file; raises DataError where it is there and cannot be read."""
+    if not path.is_file():
         return False
     try:
         with path.open("rb") as file:

@@ -141,9 +141,12 @@ def test_solidworks_has_a_file_for_each_section(tmp_path: Path):
         rows = np.loadtxt(file)  # bare numbers: anything reads them
         np.testing.assert_allclose(rows[:-1], section.points, rtol=1e-9, atol=1e-9)
         np.testing.assert_array_equal(rows[0], rows[-1])
-    read = read_sections(files[1])
-    assert len(read.sections) == 3
-    assert read.source.format == "SolidWorks curve"
+    for name in (files[1], tmp_path / "r37.sldcrv"):  # any of them, or the name they were given
+        read = read_sections(name)
+        assert len(read.sections) == 3
+        assert read.source.format == "SolidWorks curve"
+    with pytest.raises(DataError, match=r"r3\.sldcrv cannot be read: No such file"):
+        read_sections(tmp_path / "r3.sldcrv")
 
 
 def test_an_open_curve_stays_open(tmp_path: Path):
