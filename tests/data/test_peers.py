@@ -2,8 +2,8 @@
 
 PyNumeca reads `.geomTurbo`, but needs numpy 1 and so an interpreter of its own, named by
 `PYNUMECA_PYTHON`: `python -m venv peer && peer/bin/pip install pynumeca`. No package was found that
-reads TurboGrid, Creo or PC-DMIS files without the program itself; their points are read here as bare
-numbers.
+reads TurboGrid, Creo or PC-DMIS files without the program itself; here their points are read as
+bare numbers.
 """
 
 from __future__ import annotations
