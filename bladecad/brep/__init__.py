@@ -6,8 +6,11 @@
     faces           arrays become kernel faces
     sew             faces become one closed solid, names kept
     witnesses       why the solid is believed
+    joints          how smoothly its faces meet
     solid           all of it in one verb, `build_solid`
-    reread, confirm a STEP file read back, and compared with its solid
+    labels          names, colours and layers of faces
+    reread, confirm a CAD file read back, and compared with its solid
+    patches         the faces of any STEP file as arrays
     kernel, statics the door to the kernel, and its global settings
 
 cadquery takes seconds to import, so this file imports nothing.

@@ -10,7 +10,7 @@ import numpy as np
 
 from bladecad.brep.faces import sample_surface
 from bladecad.brep.kernel import kernel
-from bladecad.brep.reread import StepFile, bounds
+from bladecad.brep.reread import CadFile, bounds
 from bladecad.brep.solid import Solid
 from bladecad.errors import ExportError
 
@@ -34,13 +34,13 @@ class Agreement:
 
 
 def confirm(
-    solid: Solid, again: StepFile, *, volume: float = 1e-6, distance: float = 1e-6
+    solid: Solid, again: CadFile, *, volume: float = 1e-6, distance: float = 1e-6
 ) -> Agreement:
     """Compare a solid with the file it was written to.
 
     Parameters
     ----------
-    solid, again : Solid, StepFile
+    solid, again : Solid, CadFile
     volume : float
         Largest relative difference of the volumes.
     distance : float
@@ -56,14 +56,14 @@ def confirm(
     found = _compare(solid, again)
     if found.volume_error > volume or max(found.drift, found.shift) > distance:
         raise ExportError(
-            f"STEP read back is another blade: volume {found.volume_error:.3g} off (relative, "
-            f"{volume:g} allowed), faces {found.drift:.3g} mm, box {found.shift:.3g} mm off "
-            f"({distance:g} mm allowed)"
+            f"{again.format} read back is another blade: volume {found.volume_error:.3g} off "
+            f"(relative, {volume:g} allowed), faces {found.drift:.3g} mm, "
+            f"box {found.shift:.3g} mm off ({distance:g} mm allowed)"
         )
     return found
 
 
-def _same_names(solid: Solid, again: StepFile) -> None:
+def _same_names(solid: Solid, again: CadFile) -> None:
     total = len(again.shape.Faces())
     against = [
         "" if again.solids == 1 else f"{again.solids} solids, not 1",
@@ -72,10 +72,11 @@ def _same_names(solid: Solid, again: StepFile) -> None:
         "" if set(again.faces) == set(solid.faces) else f"faces named {sorted(again.faces)}",
     ]
     if any(against):
-        raise ExportError("STEP read back is another blade: " + "; ".join(filter(None, against)))
+        found = "; ".join(filter(None, against))
+        raise ExportError(f"{again.format} read back is another blade: {found}")
 
 
-def _compare(solid: Solid, again: StepFile) -> Agreement:
+def _compare(solid: Solid, again: CadFile) -> Agreement:
     with kernel("comparing the file with the solid"):
         return Agreement(
             volume_error=abs(again.volume / solid.witnesses.volume - 1),

@@ -1,56 +1,66 @@
-"""A STEP file read back, as another program would."""
+"""A CAD file read back, as another program would."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Any, Final, final
+from typing import Any, Final, Literal, TypeAlias, final
 
 import cadquery as cq
 import numpy as np
+from OCP.BRep import BRep_Builder
+from OCP.BRepTools import BRepTools
 from OCP.IFSelect import IFSelect_ReturnStatus
-from OCP.Quantity import Quantity_Color, Quantity_TypeOfColor
+from OCP.IGESCAFControl import IGESCAFControl_Reader
 from OCP.STEPCAFControl import STEPCAFControl_Reader
-from OCP.TCollection import TCollection_ExtendedString
-from OCP.TDataStd import TDataStd_Name
-from OCP.TDF import TDF_Label, TDF_LabelSequence
-from OCP.TDocStd import TDocStd_Document
-from OCP.XCAFDoc import (
-    XCAFDoc_ColorTool,
-    XCAFDoc_ColorType,
-    XCAFDoc_DocumentTool,
-    XCAFDoc_ShapeTool,
-)
+from OCP.TopoDS import TopoDS_Shape
+from OCP.XCAFDoc import XCAFDoc_ShapeTool
 
 from bladecad.arrays import Array, seal
 from bladecad.brep.kernel import kernel
+from bladecad.brep.labels import (
+    empty_document,
+    face_colour,
+    face_layer,
+    face_name,
+    roots,
+    text,
+)
 from bladecad.brep.statics import statics
 from bladecad.brep.witnesses import volume
 from bladecad.errors import ExportError
 
+Format: TypeAlias = Literal["STEP", "IGES", "BREP"]
 SETTINGS: Final[Mapping[str, str]] = {
     "xstep.cascade.unit": "MM",
     "read.stepcaf.subshapes.name": "On",
+}
+READERS: Final[Mapping[Format, Any]] = {
+    "STEP": STEPCAFControl_Reader,
+    "IGES": IGESCAFControl_Reader,
 }
 
 
 @final
 @dataclass(frozen=True, eq=False)
-class StepFile:
-    """What stands in a STEP file, in mm.
+class CadFile:
+    """What stands in a CAD file, in mm.
 
+    format  : "STEP", "IGES" or "BREP"
     shape   : the cadquery shape at the root, the compound of all where there are several
     product : the name of the first root
     solids  : how many solids there are
     faces   : all faces that have a name
     colours : sRGB of each named face that has one
+    layers  : layer of each named face that lies on one
     valid   : the kernel's check
     volume  : mm^3
     bounds  : (2, 3) float, mm; smallest and largest corner
     """
 
+    format: Format
     shape: cq.Shape
     product: str
     solids: int
@@ -59,26 +69,51 @@ class StepFile:
     valid: bool
     volume: float
     bounds: Array
+    layers: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         seal(self, bounds=(2, 3))
 
 
-def read_step(path: str | os.PathLike[str]) -> StepFile:
-    """Read a STEP file with its names and colours.
+def read_step(path: str | os.PathLike[str]) -> CadFile:
+    """Read a STEP file with the names, colours and layers of its faces.
 
     Raises
     ------
     ExportError
         If the file cannot be read as STEP, or holds no shape.
     """
-    with statics(SETTINGS), kernel(f"reading {os.fspath(path)}"):
-        document = _document(os.fspath(path))
-        roots = _roots(document)
-        if not roots:
-            raise ExportError(f"{os.fspath(path)} holds no shape")
-        shapes = [cq.Shape.cast(XCAFDoc_ShapeTool.GetShape_s(root)) for root in roots]
-        return _content(document, _text(roots[0]), shapes)
+    return _read("STEP", os.fspath(path))
+
+
+def read_iges(path: str | os.PathLike[str]) -> CadFile:
+    """Read an IGES file with the names, colours and layers of its faces.
+
+    Raises
+    ------
+    ExportError
+        If the file cannot be read as IGES, or holds no shape.
+    """
+    return _read("IGES", os.fspath(path))
+
+
+def read_brep(path: str | os.PathLike[str], *, names: Sequence[str] = ()) -> CadFile:
+    """Read a BREP file; its faces, which have no names there, are given `names` in their order.
+
+    Raises
+    ------
+    ExportError
+        If the file cannot be read as BREP, or has another number of faces.
+    """
+    file, shape = os.fspath(path), TopoDS_Shape()
+    with kernel(f"reading {file}"):
+        if not BRepTools.Read_s(shape, file, BRep_Builder()) or shape.IsNull():
+            raise ExportError(f"{file} cannot be read as BREP; is it there, and whole?")
+        found = cq.Shape.cast(shape)
+        faces = found.Faces()
+        if names and len(names) != len(faces):
+            raise ExportError(f"{file} has {len(faces)} faces, not {len(names)}")
+        return _content("BREP", found, "", dict(zip(names, faces, strict=False)))
 
 
 def named_faces(path: str | os.PathLike[str]) -> list[tuple[str, cq.Face]]:
@@ -90,18 +125,11 @@ def named_faces(path: str | os.PathLike[str]) -> list[tuple[str, cq.Face]]:
         If the file cannot be read as STEP, or holds no face.
     """
     with statics(SETTINGS), kernel(f"reading {os.fspath(path)}"):
-        document = _document(os.fspath(path))
-        tool = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
-        shapes = [cq.Shape.cast(XCAFDoc_ShapeTool.GetShape_s(root)) for root in _roots(document)]
-        faces = [face for shape in shapes for face in shape.Faces()]
+        document = _document("STEP", os.fspath(path))
+        faces = [face for shape in _shapes(document) for face in shape.Faces()]
         if not faces:
             raise ExportError(f"{os.fspath(path)} holds no face")
-        return [(_face_name(tool, face), face) for face in faces]
-
-
-def _face_name(tool: Any, face: cq.Face) -> str:
-    label = TDF_Label()
-    return _text(label) if tool.Search(face.wrapped, label) else ""
+        return [(face_name(document, face), face) for face in faces]
 
 
 def bounds(shape: cq.Shape) -> Array:
@@ -110,62 +138,53 @@ def bounds(shape: cq.Shape) -> Array:
     return np.array([[box.xmin, box.ymin, box.zmin], [box.xmax, box.ymax, box.zmax]])
 
 
-def _document(path: str) -> Any:
-    document = TDocStd_Document(TCollection_ExtendedString("bladecad"))
-    reader = STEPCAFControl_Reader()
+def _read(kind: Format, path: str) -> CadFile:
+    with statics(SETTINGS), kernel(f"reading {path}"):
+        document = _document(kind, path)
+        shapes = _shapes(document)
+        if not shapes:
+            raise ExportError(f"{path} holds no shape")
+        shape = shapes[0] if len(shapes) == 1 else cq.Compound.makeCompound(shapes)
+        faces = {face_name(document, face): face for face in shape.Faces()}
+        return _content(kind, shape, text(roots(document)[0]), faces, document)
+
+
+def _document(kind: Format, path: str) -> Any:
+    document, reader = empty_document(), READERS[kind]()
     reader.SetColorMode(True)
     reader.SetNameMode(True)
+    reader.SetLayerMode(True)
     if reader.ReadFile(path) != IFSelect_ReturnStatus.IFSelect_RetDone:
-        raise ExportError(f"{path} cannot be read as STEP; is it there, and whole?")
+        raise ExportError(f"{path} cannot be read as {kind}; is it there, and whole?")
     if not reader.Transfer(document):
-        raise ExportError(f"{path} is STEP, but nothing in it turns into a shape")
+        raise ExportError(f"{path} is {kind}, but nothing in it turns into a shape")
     return document
 
 
-def _roots(document: Any) -> list[Any]:
-    labels = TDF_LabelSequence()
-    XCAFDoc_DocumentTool.ShapeTool_s(document.Main()).GetFreeShapes(labels)
-    return list(labels)
+def _shapes(document: Any) -> list[cq.Shape]:
+    return [cq.Shape.cast(XCAFDoc_ShapeTool.GetShape_s(root)) for root in roots(document)]
 
 
-def _content(document: Any, product: str, shapes: list[cq.Shape]) -> StepFile:
-    shape = shapes[0] if len(shapes) == 1 else cq.Compound.makeCompound(shapes)
-    labels = _face_labels(document, shape)
-    return StepFile(
+def _content(
+    kind: Format,
+    shape: cq.Shape,
+    product: str,
+    faces: Mapping[str, cq.Face],
+    document: Any = None,
+) -> CadFile:
+    named = {name: face for name, face in faces.items() if name}
+    look = named if document is not None else {}
+    colours = {name: face_colour(document, face) for name, face in look.items()}
+    layers = {name: face_layer(document, face) for name, face in look.items()}
+    return CadFile(
+        format=kind,
         shape=shape,
         product=product,
         solids=len(shape.Solids()),
-        faces=MappingProxyType({name: face for name, (face, _) in labels.items()}),
-        colours=MappingProxyType(_colours(labels)),
+        faces=MappingProxyType(named),
+        colours=MappingProxyType({name: c for name, c in colours.items() if c is not None}),
         valid=shape.isValid(),
         volume=volume(shape),
         bounds=bounds(shape),
+        layers=MappingProxyType({name: layer for name, layer in layers.items() if layer}),
     )
-
-
-def _face_labels(document: Any, shape: cq.Shape) -> dict[str, tuple[cq.Face, Any]]:
-    tool = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
-    found = {}
-    for face in shape.Faces():
-        label = TDF_Label()
-        if tool.Search(face.wrapped, label) and _text(label):
-            found[_text(label)] = (face, label)
-    return found
-
-
-def _colours(labels: Mapping[str, tuple[cq.Face, Any]]) -> dict[str, tuple[float, float, float]]:
-    found = {}
-    for name, (_, label) in labels.items():
-        colour = Quantity_Color()
-        if XCAFDoc_ColorTool.GetColor_s(label, XCAFDoc_ColorType.XCAFDoc_ColorSurf, colour):
-            found[name] = tuple(colour.Values(Quantity_TypeOfColor.Quantity_TOC_sRGB))
-    return found
-
-
-def _text(label: Any) -> str:
-    """The name of a label, "" without one; asked for an attribute it lacks, the kernel crashes."""
-    if not label.IsAttribute(TDataStd_Name.GetID_s()):
-        return ""
-    attribute = TDataStd_Name()
-    label.FindAttribute(TDataStd_Name.GetID_s(), attribute)
-    return str(attribute.Get().ToExtString())

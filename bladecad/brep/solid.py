@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import Final, final
 
 import cadquery as cq
@@ -30,7 +31,7 @@ from bladecad.brep.sew import sew
 from bladecad.brep.witnesses import Witnesses, believe, hear_witnesses
 from bladecad.errors import GeometryError
 from bladecad.surface.patch import SplinePatch
-from bladecad.surface.zones import Division, Faces, Part, divide
+from bladecad.surface.zones import Division, Faces, Part, Zone, divide
 
 NAMES: Final[Mapping[Part, FaceName]] = {
     "suction": SUCTION_SIDE,
@@ -51,13 +52,13 @@ class Solid:
     faces     : its faces by name: SUCTION_SIDE, PRESSURE_SIDE, HUB, TIP, and LEADING_EDGE or
                 TRAILING_EDGE where that edge is blunt or was asked for; or AIRFOIL, HUB, TIP
     witnesses : what the kernel and the quadrature said
-    moved     : largest distance by which the faces round an edge are off the patches, mm
+    zones     : which part of the sides each face covers; blunt edges and ends are none of them
     """
 
     shape: cq.Solid
     faces: Mapping[str, cq.Face]
     witnesses: Witnesses
-    moved: float = 0.0
+    zones: Mapping[str, Zone] = field(default_factory=dict)
 
 
 def build_solid(
@@ -107,7 +108,8 @@ def build_solid(
         shape, named = sew(made, limits.gap)
         witnesses = hear_witnesses(shape, expected=_counts(division, plane), quadrature=volume)
     believe(witnesses, limits)
-    return Solid(shape, named, witnesses, division.moved)
+    zones: dict[str, Zone] = {NAMES[zone.part]: zone for zone in division.zones}
+    return Solid(shape, named, witnesses, MappingProxyType(zones))
 
 
 def sample_face(solid: Solid, name: FaceName, u: Vector, t: Vector) -> Array:

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from threading import RLock
 
+from OCP.IGESControl import IGESControl_Controller
 from OCP.Interface import Interface_Static
 from OCP.STEPCAFControl import STEPCAFControl_Controller
 
@@ -25,12 +26,13 @@ def statics(wanted: Mapping[str, str]) -> Iterator[None]:
 
     Notes
     -----
-    Before the first STEP controller is initialised the settings do not exist, and setting them
-    fails without a word. `cadquery.exporters` reads the same settings: what leaks from here
-    would change the next file.
+    Before the controllers of both formats are initialised their settings do not exist, and
+    setting them fails without a word. `cadquery.exporters` reads the same settings: what leaks
+    from here would change the next file.
     """
     with _one_at_a_time:
         STEPCAFControl_Controller.Init_s()
+        IGESControl_Controller.Init_s()
         before = {name: Interface_Static.CVal_s(name) for name in wanted}
         try:
             for name, value in wanted.items():

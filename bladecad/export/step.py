@@ -11,37 +11,17 @@ from typing import Any, Final, Literal, TypeAlias
 
 from OCP.APIHeaderSection import APIHeaderSection_MakeHeader
 from OCP.IFSelect import IFSelect_ReturnStatus
-from OCP.Quantity import Quantity_Color, Quantity_TypeOfColor
 from OCP.STEPCAFControl import STEPCAFControl_Writer
 from OCP.STEPControl import STEPControl_StepModelType
-from OCP.TCollection import TCollection_ExtendedString, TCollection_HAsciiString
-from OCP.TDataStd import TDataStd_Name
-from OCP.TDocStd import TDocStd_Document
-from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool
+from OCP.TCollection import TCollection_HAsciiString
 
 from bladecad.brep.kernel import kernel
-from bladecad.brep.names import (
-    HUB,
-    LEADING_EDGE,
-    PRESSURE_SIDE,
-    SUCTION_SIDE,
-    TIP,
-    TRAILING_EDGE,
-)
 from bladecad.brep.solid import Solid
 from bladecad.brep.statics import statics
 from bladecad.errors import ExportError
+from bladecad.export.cad_document import document
 
 Schema: TypeAlias = Literal["AP242DIS", "AP214IS"]
-
-COLOURS: Final[Mapping[str, tuple[float, float, float]]] = {  # sRGB, as seen on the screen
-    SUCTION_SIDE: (0.26, 0.52, 0.76),
-    PRESSURE_SIDE: (0.86, 0.44, 0.32),
-    HUB: (0.55, 0.55, 0.58),
-    TIP: (0.78, 0.78, 0.80),
-    LEADING_EDGE: (0.95, 0.77, 0.28),
-    TRAILING_EDGE: (0.45, 0.66, 0.38),
-}
 
 SETTINGS: Final[Mapping[str, str]] = {
     "write.step.unit": "MM",
@@ -62,7 +42,7 @@ def write_step(
     Parameters
     ----------
     solid : Solid
-        In mm; its face names and their colours go into the file.
+        In mm; the names, colours and layers of its faces go into the file.
     path : path
         Replaced when it exists; written beside first and then renamed.
     name : str
@@ -86,7 +66,7 @@ def write_step(
     beside = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
         with statics({**SETTINGS, "write.step.schema": schema}), kernel(f"writing {path.name}"):
-            _write(_transferred(_document(solid, name), path.name), beside)
+            _write(_transferred(document(solid, name, _directives), path.name), beside)
         beside.replace(path)
     except OSError as error:
         raise ExportError(f"{path} cannot be written: {error.strerror}") from error
@@ -95,23 +75,11 @@ def write_step(
             beside.unlink()
 
 
-def _document(solid: Solid, name: str) -> Any:
-    document = TDocStd_Document(TCollection_ExtendedString("bladecad"))
-    shapes = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
-    colours = XCAFDoc_DocumentTool.ColorTool_s(document.Main())
-    root = shapes.AddShape(solid.shape.wrapped, False)
-    _name(root, _directives(name))
-    for face_name, face in solid.faces.items():
-        label = shapes.AddSubShape(root, face.wrapped)
-        _name(label, face_name)
-        colours.SetColor(label, _colour(face_name), XCAFDoc_ColorType.XCAFDoc_ColorSurf)
-    return document
-
-
 def _transferred(document: Any, title: str) -> STEPCAFControl_Writer:
     writer = STEPCAFControl_Writer()
     writer.SetColorMode(True)
     writer.SetNameMode(True)
+    writer.SetLayerMode(True)
     if not writer.Transfer(document, STEPControl_StepModelType.STEPControl_AsIs):
         raise ExportError(f"the CAD kernel does not turn the solid into STEP for {title}")
     header = APIHeaderSection_MakeHeader(writer.ChangeWriter().Model())
@@ -130,10 +98,6 @@ def _write(writer: STEPCAFControl_Writer, path: Path) -> None:
         raise ExportError(f"the CAD kernel does not write {path}: {status.name}")
 
 
-def _name(label: Any, text: str) -> None:
-    TDataStd_Name.Set_s(label, TCollection_ExtendedString(text, True))
-
-
 def _directives(text: str) -> str:
     """Spell what is not ASCII as ISO 10303-21 wants it, which the kernel leaves raw."""
     return "".join(c if ord(c) < 128 else _directive(ord(c)) for c in text)
@@ -141,7 +105,3 @@ def _directives(text: str) -> str:
 
 def _directive(code: int) -> str:
     return f"\\X2\\{code:04X}\\X0\\" if code < 0x10000 else f"\\X4\\{code:08X}\\X0\\"
-
-
-def _colour(face_name: str) -> Quantity_Color:
-    return Quantity_Color(*COLOURS[face_name], Quantity_TypeOfColor.Quantity_TOC_sRGB)

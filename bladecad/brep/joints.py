@@ -1,0 +1,170 @@
+"""How smoothly the faces of a blade meet: gap, angle and jump of curvature along every joint."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Final, Protocol, final
+
+import cadquery as cq
+import numpy as np
+from OCP.BRep import BRep_Tool
+from OCP.Geom import Geom_BSplineSurface
+from OCP.gp import gp_Pnt, gp_Vec
+from OCP.TopAbs import TopAbs_Orientation, TopAbs_ShapeEnum
+from OCP.TopExp import TopExp
+from OCP.TopoDS import TopoDS
+from OCP.TopTools import TopTools_IndexedDataMapOfShapeListOfShape
+
+from bladecad.arrays import Array, Vector
+from bladecad.brep.kernel import kernel
+from bladecad.brep.names import HUB, TIP
+
+PLACES: Final = 401  # along an edge
+CORNER: Final = 1.0  # degrees; at more the faces are not meant to meet smoothly
+
+
+class Body(Protocol):
+    """A solid or a file: a shape whose faces have names."""
+
+    @property
+    def shape(self) -> cq.Shape:
+        """The kernel's shape."""
+        ...
+
+    @property
+    def faces(self) -> Mapping[str, cq.Face]:
+        """Its faces by name."""
+        ...
+
+
+@final
+@dataclass(frozen=True)
+class Joint:
+    """An edge along which two faces of a blade meet, or a closed face meets itself.
+
+    faces  : their names
+    edge   : "leading", "trailing", or "seam" where a closed face meets itself
+    length : mm
+    gap    : largest distance between the two faces at equal places of the edge, mm
+    angle  : largest angle between their normals, G1, degrees
+    jump   : largest difference of their normal curvatures across the edge, G2, 1/mm
+    curvature : the largest of those curvatures, 1/mm, to compare with
+    """
+
+    faces: tuple[str, str]
+    edge: str
+    length: float
+    gap: float
+    angle: float
+    jump: float
+    curvature: float
+
+    @property
+    def smooth(self) -> bool:
+        """Whether the faces are meant to meet smoothly; at more than a degree it is a corner."""
+        return self.angle <= CORNER
+
+
+def joints(body: Body) -> tuple[Joint, ...]:
+    """Measure every edge along the span where two faces of the sides meet.
+
+    Parameters
+    ----------
+    body : Solid or CadFile
+        Edges of HUB and TIP, and of the faces of blunt edges, are corners by design and left out.
+
+    Notes
+    -----
+    Across an edge where the normals agree, two faces have the same curvature in every direction
+    as soon as they have in one that is not along the edge (Pegna and Wolter, Geometrical criteria
+    to guarantee curvature continuity of blend surfaces, 1992): one number tells G2.
+    """
+    with kernel("measuring the joints"):
+        names = {name: face for name, face in body.faces.items() if _is_side(name, face)}
+        between = TopTools_IndexedDataMapOfShapeListOfShape()
+        kinds = TopAbs_ShapeEnum.TopAbs_EDGE, TopAbs_ShapeEnum.TopAbs_FACE
+        TopExp.MapShapesAndAncestors_s(body.shape.wrapped, *kinds, between)
+        found = []
+        for edge in body.shape.Edges():
+            beside = [cq.Face(face) for face in between.FindFromKey(edge.wrapped)]
+            met = [name for face in beside for name in names if names[name].isSame(face)]
+            if len(met) == 2:
+                found.append(_measured(edge, (met[0], met[1]), names))
+        return tuple(sorted(found, key=lambda joint: (joint.edge, joint.faces)))
+
+
+def _is_side(name: str, face: cq.Face) -> bool:
+    """Ends are none, nor are the ruled faces of blunt edges."""
+    surface = BRep_Tool.Surface_s(face.wrapped)
+    return (
+        name not in (HUB, TIP)
+        and isinstance(surface, Geom_BSplineSurface)
+        and surface.VDegree() > 1
+    )
+
+
+def _measured(edge: cq.Edge, met: tuple[str, str], names: Mapping[str, cq.Face]) -> Joint:
+    first, last = BRep_Tool.Range_s(edge.wrapped)
+    places = np.linspace(first, last, PLACES)
+    other = TopoDS.Edge_s(edge.wrapped.Reversed()) if met[0] == met[1] else edge.wrapped
+    sides = [
+        _looked_at(wrapped, names[name], places)
+        for wrapped, name in zip((edge.wrapped, other), met, strict=True)
+    ]
+    X, n = (np.stack([side[key] for side in sides]) for key in ("X", "n"))
+    tau = np.gradient(X[0], axis=0)
+    across = np.cross(n[0], tau / np.linalg.norm(tau, axis=1, keepdims=True))
+    k = np.stack([_normal_curvature(side, across) for side in sides])
+    angle = np.arctan2(np.linalg.norm(np.cross(*n), axis=1), np.einsum("ix,ix->i", *n))
+    return Joint(
+        met,
+        _which(met, float(sides[0]["t"].mean())),
+        float(np.linalg.norm(np.diff(X[0], axis=0), axis=1).sum()),
+        float(np.linalg.norm(X[1] - X[0], axis=1).max()),
+        float(np.degrees(angle.max())),
+        float(np.abs(k[1] - k[0]).max()),
+        float(np.abs(k).max()),
+    )
+
+
+def _looked_at(edge: Any, face: cq.Face, places: Vector) -> dict[str, Array]:
+    """Places along an edge as one of its faces sees them: t, X, n outward, and derivatives."""
+    surface = BRep_Tool.Surface_s(face.wrapped)
+    curve = BRep_Tool.CurveOnSurface_s(edge, face.wrapped, 0.0, 1.0)
+    at = [curve.Value(place) for place in places.tolist()]
+    D = np.array([_derivatives(surface, place.X(), place.Y()) for place in at])
+    n = np.cross(D[:, 1], D[:, 2])
+    n /= np.linalg.norm(n, axis=1, keepdims=True)
+    if face.wrapped.Orientation() == TopAbs_Orientation.TopAbs_REVERSED:
+        n = -n
+    return {"t": np.array([place.Y() for place in at]), "X": D[:, 0], "n": n, "D": D}
+
+
+def _derivatives(surface: Any, u: float, t: float) -> list[list[float]]:
+    """X, X_u, X_t, X_uu, X_tt, X_ut by the kernel."""
+    point, vectors = gp_Pnt(), [gp_Vec() for _ in range(5)]
+    surface.D2(u, t, point, *vectors)
+    return [[v.X(), v.Y(), v.Z()] for v in (point, *vectors)]
+
+
+def _normal_curvature(side: Mapping[str, Array], across: Array) -> Vector:
+    """II(c)/I(c) for the direction c = a X_u + b X_t nearest to `across`."""
+    D, n = side["D"], side["n"]
+    Xu, Xt = D[:, 1], D[:, 2]
+    E, F, G = (np.einsum("ix,ix->i", p, q) for p, q in ((Xu, Xu), (Xu, Xt), (Xt, Xt)))
+    e, g, f = (np.einsum("ix,ix->i", D[:, k], n) for k in (3, 4, 5))
+    p, q = (np.einsum("ix,ix->i", across, v) for v in (Xu, Xt))
+    a, b = G * p - F * q, E * q - F * p
+    return np.asarray(
+        (e * a**2 + 2.0 * f * a * b + g * b**2) / (E * a**2 + 2.0 * F * a * b + G * b**2)
+    )
+
+
+def _which(met: tuple[str, str], t: float) -> str:
+    if met[0] == met[1]:
+        return "seam"
+    for edge in ("leading", "trailing"):
+        if f"{edge.upper()}_EDGE" in met:
+            return edge
+    return "leading" if t < 0.5 else "trailing"
