@@ -15,8 +15,8 @@ from bladecad.meshes.measure import away_from_ruled, away_from_sides
 from bladecad.meshes.named import NamedMesh
 from bladecad.meshes.numbering import Line, Numbering, number
 from bladecad.meshes.quality import Quality, qualities
-from bladecad.meshes.sizing import Sizing, chordwise, spanwise
-from bladecad.meshes.strips import capped, zipped
+from bladecad.meshes.sizing import Sizing, chordwise, largest_growth, spanwise
+from bladecad.meshes.strips import capped, outward_mesh, zipped
 from bladecad.surface.blade import BladeSurface
 from bladecad.surface.grid import rim
 from bladecad.surface.ruled import Triangles
@@ -110,11 +110,19 @@ def _meshed(surface: BladeSurface, t: Vector, rows: list[Vector], sizing: Sizing
     around, pressure, behind = (k[:, ::-1] for k in P)
     edges = {"blade_le": np.concatenate([le, around]), "blade_te": np.concatenate([te, behind])}
     faces = {"blade_suction": suction, "blade_pressure": pressure, **edges} | ruled
-    mesh = _outward(NamedMesh(numbered.vertices, {k: v for k, v in faces.items() if len(v)}))
+    used, faces = _renumbered({name: k for name, k in faces.items() if len(k)})
+    mesh = outward_mesh(NamedMesh(numbered.vertices[used], faces))
     zones = tuple((float(t[first]), float(1.0 - t[last])) for first, last in borders)
-    growth = _growth(np.diff(t))
-    places = numbered.u, numbered.t, numbered.s
-    return BladePatches(mesh, *places, zones, error, growth, qualities(mesh))
+    places = numbered.u[used], numbered.t[used], numbered.s[used]
+    return BladePatches(mesh, *places, zones, error, largest_growth(t), qualities(mesh))
+
+
+def _renumbered(faces: dict[str, Triangles]) -> tuple[Line, dict[str, Triangles]]:
+    """Vertices that are used (rulings in round edges are not), and faces in their new numbers."""
+    used, which = np.unique(np.concatenate(list(faces.values())), return_inverse=True)
+    ends = np.cumsum([len(k) for k in faces.values()])[:-1]
+    parts = np.split(which.reshape(-1, 3), ends)
+    return used, dict(zip(faces, parts, strict=True))
 
 
 def _borders(surface: BladeSurface, t: Vector) -> list[tuple[int, int]]:
@@ -144,17 +152,6 @@ def _ruled(numbered: Numbering) -> dict[str, Triangles]:
     if numbered.trailing:
         found["blade_te"] = zipped(v, numbered.trailing)[:, ::-1]
     return found
-
-
-def _growth(steps: Vector) -> float:
-    ratio = steps[1:] / steps[:-1]
-    return float(np.maximum(ratio, 1.0 / ratio).max())
-
-
-def _outward(mesh: NamedMesh) -> NamedMesh:
-    if mesh.volume >= 0.0:
-        return mesh
-    return NamedMesh(mesh.vertices, {name: k[:, ::-1] for name, k in mesh.patches.items()})
 
 
 def _check(patches: BladePatches) -> None:

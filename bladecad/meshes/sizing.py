@@ -119,9 +119,7 @@ def spanwise(surface: BladeSurface, t: Vector, sizing: Sizing) -> list[Vector]:
     h = np.minimum(sizing.size, sizing.aspect * step)
     by_bend = np.sqrt(bend / (8.0 * (1.0 - ALONG_T) * sizing.chord_error))
     count = np.ceil(np.maximum(length[-1] / h, by_bend)).astype(int)
-    return [
-        _even(s, u, max(int(n), 2)) for s, n in zip(length.T, np.maximum(count, 2), strict=True)
-    ]
+    return [even(s, u, max(int(n), 2)) for s, n in zip(length.T, np.maximum(count, 2), strict=True)]
 
 
 def _neighbours(X: Array) -> Vector:
@@ -130,7 +128,15 @@ def _neighbours(X: Array) -> Vector:
     return np.asarray(np.minimum(np.append(gap, np.inf), np.insert(gap, 0, np.inf)))
 
 
-def _even(length: Vector, u: Vector, count: int) -> Vector:
+def even(length: Vector, u: Vector, count: int) -> Vector:
+    """u, from 0 to 1, at equal steps of a length that is known at some u."""
     places = np.interp(np.linspace(0.0, length[-1], count + 1), length, u)
     places[[0, -1]] = 0.0, 1.0
     return places
+
+
+def largest_growth(places: Vector) -> float:
+    """Largest ratio of neighbouring steps, either way."""
+    steps = np.diff(places)
+    ratio = steps[1:] / steps[:-1]
+    return float(np.maximum(ratio, 1.0 / ratio).max())

@@ -9,9 +9,10 @@ from typing import Final
 import numpy as np
 
 from bladecad.arrays import Points, Vector
+from bladecad.meshes.named import NamedMesh
 from bladecad.surface.ruled import Triangles
 
-DEEP: Final = 0.4  # of the length of a ruling; 0.5 is a semicircle's
+APART: Final = 0.7  # of a step of the border
 
 
 def zipped(vertices: Points, lines: Sequence[Triangles]) -> Triangles:
@@ -40,32 +41,52 @@ def zipped(vertices: Points, lines: Sequence[Triangles]) -> Triangles:
 def capped(vertices: Points, rulings: Sequence[Triangles]) -> Triangles:
     """Triangles of an end face between rulings from suction to pressure side, (k, 3).
 
-    Rulings lie close together in a round edge, where the border runs along them: there the border
-    itself, from side to side round the edge, is zipped to the first ruling as deep in as half as
-    long.
+    In a round edge the border runs across the chord, and rulings crowd: those that follow another
+    closer than APART steps of the border are left out. There the shorter ruling, with the border
+    on both sides of it, is zipped to the longer one.
     """
-    first, last = _deep(vertices, rulings), len(rulings) - 1 - _deep(vertices, rulings[::-1])
-    if first >= last:
-        first, last = 0, len(rulings) - 1
-    nose, tail = _round(rulings[: first + 1]), _round(rulings[last:][::-1])
-    parts = [zipped(vertices, rulings[first : last + 1])]
-    parts += [zipped(vertices, [nose, rulings[first]])] if first else []
-    parts += [zipped(vertices, [rulings[last], tail])] if last < len(rulings) - 1 else []
-    return np.concatenate(parts)
+    kept = _kept(vertices, rulings)
+    strips = []
+    for i, j in pairwise(kept):
+        between = rulings[i : j + 1]
+        if j == i + 1:
+            strips.append(zipped(vertices, between))
+        elif _width(vertices, between[0]) < _width(vertices, between[-1]):
+            strips.append(zipped(vertices, [_around(between), between[-1]]))
+        else:
+            strips.append(zipped(vertices, [between[0], _around(between[::-1])]))
+    return np.concatenate(strips)
 
 
-def _deep(vertices: Points, rulings: Sequence[Triangles]) -> int:
-    """Number of the first ruling half as deep in as it is long; 0 where the end is no point."""
-    if len(rulings[0]) > 1:
-        return 0
+def _kept(vertices: Points, rulings: Sequence[Triangles]) -> list[int]:
+    """Numbers of the rulings that are far enough apart; the first and the last always."""
     a, b = (vertices[[r[i] for r in rulings]] for i in (0, -1))
-    depth = np.linalg.norm(0.5 * (a + b) - a[0], axis=1)
-    return int(np.flatnonzero(depth[1:] >= DEEP * np.linalg.norm(b - a, axis=1)[1:])[0]) + 1
+    middle, last = 0.5 * (a + b), len(rulings) - 1
+    step = 0.5 * sum(np.linalg.norm(np.diff(x, axis=0), axis=1) for x in (a, b))
+    kept = [0]
+    for j in range(1, last):
+        if np.linalg.norm(middle[j] - middle[kept[-1]]) >= APART * step[j - 1]:
+            kept.append(j)
+    if len(kept) > 1 and np.linalg.norm(middle[last] - middle[kept[-1]]) < 0.5 * APART * step[-1]:
+        kept.pop()
+    return [*kept, last]
 
 
-def _round(rulings: Sequence[Triangles]) -> Triangles:
-    """The border from side to side round an edge: suction ends, the edge, pressure ends."""
-    return np.array([*(r[0] for r in rulings[::-1]), *(r[-1] for r in rulings[1:])])
+def _around(rulings: Sequence[Triangles]) -> Triangles:
+    """The first ruling with the border on both sides: from the last one's end to its other."""
+    suction, pressure = [r[0] for r in rulings[:0:-1]], [r[-1] for r in rulings[1:]]
+    return np.array([*suction, *rulings[0], *pressure])
+
+
+def _width(vertices: Points, ruling: Triangles) -> float:
+    return float(np.linalg.norm(vertices[ruling[-1]] - vertices[ruling[0]]))
+
+
+def outward_mesh(mesh: NamedMesh) -> NamedMesh:
+    """The same closed mesh, its triangles counter-clockwise from outside."""
+    if mesh.volume >= 0.0:
+        return mesh
+    return NamedMesh(mesh.vertices, {name: k[:, ::-1] for name, k in mesh.patches.items()})
 
 
 def _strip(a: Triangles, b: Triangles, late: float) -> Triangles:

@@ -25,6 +25,7 @@ from bladecad.pipeline.mesh_sizing import cells_for
 from bladecad.surface.blade import BladeSurface
 from bladecad.surface.loft import SIDES
 
+Reached: TypeAlias = Mapping[str, Any]
 MeshFormat: TypeAlias = Literal["openfoam", "stl", "msh", "plot3d", "vtk"]
 REPORT: Final = "mesh.json"
 DIGITS: Final = 9  # of its numbers
@@ -58,23 +59,52 @@ def write_blade_mesh(
     GeometryError, ToleranceError
         If the blade cannot be meshed as asked.
     """
-    patches = mesh_blade(blade.surface, sizing)
     with staged(folder, force=force, report=REPORT) as stage:
-        if form in ("plot3d", "vtk"):
-            _write_blocks(blade, stage, form, sizing, patches)
-        if form != "plot3d":
-            cells = cells_for(blade.surface, sizing)
-            data = _point_data(blade.surface, patches) if form == "vtk" else {}
-            axis = blade.machine.axis
-            write_mesh(patches.mesh, stage, form, blade.name, cells, axis=axis, point_data=data)
-        reached = {
-            "chord_error_mm": patches.chord_error,
-            "growth": patches.growth,
-            "zones_t": patches.zones,
-        }
-        said = report(patches.mesh, form, blade.name, sizing, reached, stage)
+        if form == "plot3d":
+            mesh, reached = _write_plot3d(blade, stage, sizing)
+        else:
+            mesh, reached = _write_triangles(blade, stage, form, sizing)
+        said = report(mesh, form, blade.name, sizing, reached, stage)
         write_json(said, stage / REPORT, digits=DIGITS)
     return said
+
+
+def _write_triangles(
+    blade: BladeFile, stage: Path, form: MeshFormat, sizing: Sizing
+) -> tuple[NamedMesh, Reached]:
+    patches = mesh_blade(blade.surface, sizing)
+    data = {}
+    if form == "vtk":
+        data = _point_data(blade.surface, patches)
+        _write_vts(blade, stage, sizing)
+    cells, axis = cells_for(blade.surface, sizing), blade.machine.axis
+    write_mesh(patches.mesh, stage, form, blade.name, cells, axis=axis, point_data=data)
+    return patches.mesh, {
+        "chord_error_mm": patches.chord_error,
+        "growth": patches.growth,
+        "zones_t": patches.zones,
+    }
+
+
+def _write_plot3d(blade: BladeFile, stage: Path, sizing: Sizing) -> tuple[NamedMesh, Reached]:
+    from bladecad.cfd.plot3d import write_plot3d
+    from bladecad.meshes.blocks import blade_blocks, triangles_of
+
+    found = blade_blocks(blade.surface, sizing)
+    write_plot3d(found.blocks, stage / f"{blade.name}.xyz")
+    return triangles_of(found.blocks), {
+        "chord_error_mm": found.chord_error,
+        "growth": found.growth,
+        "blocks": {block.name: block.points.shape[1::-1] for block in found.blocks},
+    }
+
+
+def _write_vts(blade: BladeFile, stage: Path, sizing: Sizing) -> None:
+    from bladecad.cfd.vtk import write_vts
+    from bladecad.meshes.blocks import blade_blocks
+
+    for block in blade_blocks(blade.surface, sizing).blocks:
+        write_vts(block, stage / f"{blade.name}_{block.name.removeprefix('blade_')}.vts")
 
 
 def write_mesh(
@@ -109,7 +139,7 @@ def report(
     form: MeshFormat,
     name: str,
     sizing: Sizing,
-    reached: Mapping[str, Any],
+    reached: Reached,
     stage: Path,
 ) -> dict[str, Any]:
     """What `mesh.json` says: what was asked and reached, every patch, every file."""
@@ -132,23 +162,6 @@ def report(
             for file in files
         ],
     }  # fmt: skip
-
-
-def _write_blocks(
-    blade: BladeFile, stage: Path, form: MeshFormat, sizing: Sizing, patches: BladePatches
-) -> None:
-    from bladecad.meshes.blocks import blade_blocks
-
-    blocks = blade_blocks(blade.surface, sizing)
-    if form == "plot3d":
-        from bladecad.cfd.plot3d import write_plot3d
-
-        write_plot3d(blocks, stage / f"{blade.name}.xyz")
-        return
-    from bladecad.cfd.vtk import write_vts
-
-    for block in blocks:
-        write_vts(block, stage / f"{blade.name}_{block.name.removeprefix('blade_')}.vts")
 
 
 def _point_data(surface: BladeSurface, patches: BladePatches) -> dict[str, Vector]:
