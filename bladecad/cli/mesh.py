@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 import typer
 
 from bladecad.cli import options as ask
+from bladecad.cli import passage_options as asked
 from bladecad.cli.console import log_to_stderr, progress
 from bladecad.cli.guard import Exit, guarded
 
@@ -32,9 +33,10 @@ Size = Annotated[
                  help="Largest step along chord and span; else a fortieth of the chord."),
 ]  # fmt: skip
 ChordError = Annotated[
-    float,
-    typer.Option("--chord-error", metavar="MM", rich_help_panel=SIZES,
-                 help="Largest distance of the triangles from the surface."),
+    float | None,
+    typer.Option("--chord-error", metavar="MM", show_default=False, rich_help_panel=SIZES,
+                 help="Largest distance of the triangles from the surface; else 0.01, of a "
+                 "passage a two hundredth of the size."),
 ]  # fmt: skip
 Growth = Annotated[
     float,
@@ -54,9 +56,17 @@ def mesh(
     output: ask.OutputFolder,
     format: Format,
     size: Size = None,
-    chord_error: ChordError = 0.01,
+    chord_error: ChordError = None,
     growth: Growth = 1.2,
     edge_size: EdgeSize = None,
+    passage: asked.Passage = False,
+    row: asked.Row = False,
+    walls: asked.Walls = None,
+    blades: asked.Blades = None,
+    tip_gap: asked.TipGap = 0.0,
+    hub_gap: asked.HubGap = 0.0,
+    inlet: asked.Inlet = None,
+    outlet: asked.Outlet = None,
     name: ask.Name = None,
     force: ask.Force = False,
     quiet: ask.Quiet = False,
@@ -64,24 +74,61 @@ def mesh(
 ) -> Exit:
     """Mesh a blade straight from its surface, closed, in named patches, as CFD programs take it.
 
-    MODEL is a model file, or sections that are fitted as `build` does. mesh.json beside the mesh
-    has the quality of every patch.
+    With --passage the periodic flow domain round it, with --row that of the whole row. MODEL is a
+    model file, or sections that are fitted as `build` does. mesh.json beside the mesh has the
+    quality of every patch.
     """
     log_to_stderr(verbose)
     from bladecad.export.stage import check_folder
-    from bladecad.pipeline.mesh import write_blade_mesh
-    from bladecad.pipeline.mesh_sizing import sizing_for
 
+    domain = {
+        "walls": walls, "blades": blades, "tip_gap": tip_gap, "hub_gap": hub_gap,
+        "inlet": inlet, "outlet": outlet,
+    }  # fmt: skip
+    if not (passage or row):
+        _refuse_alone(domain)
+    sizes = {"size": size, "chord_error": chord_error, "growth": growth, "edge": edge_size}
     check_folder(output, force=force)
     with progress(quiet=quiet) as tell:
         blade = _blade(path, name, tell)
-        sizing = sizing_for(
-            blade.surface, size=size, chord_error=chord_error, growth=growth, edge=edge_size
-        )
-        tell("mesh")
-        said = write_blade_mesh(blade, output, format, sizing, force=force)
-    _show(said, blade, output, quiet=quiet)
+        if passage or row:
+            said, notes = _write_passage(blade, output, format, row, {**domain, **sizes}, force)
+        else:
+            said, notes = _write_blade(blade, output, format, sizes, force), ()
+    _show(said, (*blade.notes, *notes), output, quiet=quiet)
     return Exit.WITHIN
+
+
+def _refuse_alone(domain: Mapping[str, Any]) -> None:
+    """Options of the passage say nothing of a blade alone."""
+    from bladecad.errors import ToleranceError
+
+    given = [name for name, value in domain.items() if value not in (None, 0.0)]
+    if given:
+        flag = given[0].replace("_", "-")
+        raise ToleranceError(f"--{flag} is about the passage; give --passage or --row with it")
+
+
+def _write_blade(
+    blade: BladeFile, output: Path, format: Any, sizes: dict[str, Any], force: bool
+) -> Mapping[str, Any]:
+    from bladecad.pipeline.mesh import write_blade_mesh
+    from bladecad.pipeline.mesh_sizing import sizing_for
+
+    if sizes["chord_error"] is None:
+        sizes["chord_error"] = 0.01
+    sizing = sizing_for(blade.surface, **sizes)
+    return write_blade_mesh(blade, output, format, sizing, force=force)
+
+
+def _write_passage(
+    blade: BladeFile, output: Path, format: Any, row: bool, asked: dict[str, Any], force: bool
+) -> tuple[Mapping[str, Any], tuple[str, ...]]:
+    from bladecad.pipeline.passage import PassageSettings, write_passage
+
+    settings = PassageSettings(**asked)
+    passage, said = write_passage(blade, output, format, settings, row=row, force=force)
+    return said, passage.notes
 
 
 def _blade(path: Path, name: str | None, tell: Any) -> BladeFile:
@@ -94,9 +141,9 @@ def _blade(path: Path, name: str | None, tell: Any) -> BladeFile:
     return replace(blade, name=name) if name else blade
 
 
-def _show(said: Mapping[str, Any], blade: BladeFile, output: Path, *, quiet: bool) -> None:
+def _show(said: Mapping[str, Any], notes: Sequence[str], output: Path, *, quiet: bool) -> None:
     if not quiet:
-        for note in blade.notes:
+        for note in notes:
             typer.echo(f"note: {note}")
         for line in _table(said):
             typer.echo(line)
@@ -113,7 +160,11 @@ def _table(said: Mapping[str, Any]) -> Iterator[str]:
         )
     reached = said["reached"]
     closed = "closed" if said["open_edges"] == 0 else f"{said['open_edges']} open edges"
-    yield (
-        f"{closed}; chord error {1e3 * reached['chord_error_mm']:.3g} um, "
-        f"growth {reached['growth']:.3g}"
-    )
+    growth = f", growth {reached['growth']:.3g}" if "growth" in reached else ""
+    yield f"{closed}; chord error {1e3 * reached['chord_error_mm']:.3g} um{growth}"
+    if "blades" in reached:
+        yield (
+            f"volume {reached['volume_error']:.1e} (relative) off the quadrature, periodic faces "
+            f"{reached['periodic_error_mm']:.1e} mm, blade ends {reached['trim_error_mm']:.1e} mm "
+            f"off; {reached['clearance_mm']:.3g} mm from blade to periodic face"
+        )

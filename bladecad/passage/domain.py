@@ -13,7 +13,7 @@ from bladecad.meshes.named import NamedMesh
 from bladecad.meshes.sizing import Sizing
 from bladecad.passage.assemble import meshed
 from bladecad.passage.channel import SIDES, Channel
-from bladecad.passage.cylinder import from_cylinder, to_cylinder, turned
+from bladecad.passage.cylinder import from_cylinder, to_cylinder
 from bladecad.passage.periodic import Camber, camber_of, clearance
 from bladecad.passage.trim import WALLS, Trimmed
 from bladecad.passage.volume import passage_volume
@@ -119,15 +119,22 @@ def mesh_passage(
         )
     ends = [blade.cut(name, side, np.linspace(0, 1, 201))[1] for name in WALLS for side in SIDES]
     X = mesh.vertices
-    apart = np.abs(turned(X[twins[:, 0]], blade.axis, 2.0 * np.pi / count) - X[twins[:, 1]])
     return Passage(
         mesh, blade, channel, camber, count, angle, twins, volume, missing, max(ends),
-        float(apart.max()), max(errors), free, _fluid(camber, blade), notes,
+        _apart(X, twins, blade.axis, 2.0 * np.pi / count), max(errors), free, _fluid(camber, blade), notes,
     )  # fmt: skip
 
 
 def _finer(sizing: Sizing, worst: float) -> Sizing:
     return replace(sizing, chord_error=sizing.chord_error / (1.1 * worst)) if worst > 1 else sizing
+
+
+def _apart(X: Points, twins: Triangles, axis: int, pitch: float) -> float:
+    """Largest difference of twins in axial position, radius and, less the pitch, angle, mm."""
+    first, second = (to_cylinder(X[ids], axis) for ids in twins.T)
+    away = second - first
+    turn = np.remainder(away[:, 2] - pitch + np.pi, 2.0 * np.pi) - np.pi
+    return float(np.abs([away[:, 0], away[:, 1], first[:, 1] * turn]).max())
 
 
 def _somewhere(blade: Trimmed) -> float:
