@@ -19,7 +19,7 @@ from bladecad.surface.levels import Cylinders, Level, Planes
 from bladecad.surface.loft import SIDES
 
 NEAR: Final = np.radians(20.0)  # stacking axis to the coordinate axis that is taken for it
-ON: Final = 1e-9  # of the span: on hub or tip
+ON: Final = 1e-6  # of the span: on hub or tip
 
 Direction: TypeAlias = Axis | tuple[float, float, float]
 

@@ -81,7 +81,9 @@ def evenly(surface: BladeSurface, level: Level | None, count: int) -> Vector:
         If none cuts the whole blade.
     """
     if count < 2:
-        raise ToleranceError(f"{count} stations; a file of sections needs 2 at least")
+        raise ToleranceError(
+            f"{count} station{'s' * (count != 1)}; a file of sections needs 2 at least"
+        )
     if level is None:
         return np.linspace(0.0, 1.0, count)
     rising = rise(surface, level)

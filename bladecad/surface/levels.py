@@ -61,7 +61,7 @@ class Planes:
         """A plane, named by its normal."""
         if self.letter != "h":
             return f"plane {self.letter}"
-        return f"plane square to {','.join(f'{d:.4g}' for d in self.direction)} at height"
+        return f"plane square to {','.join(f'{d:.4g}' for d in self.direction)}, height"
 
     def height(self, X: Points) -> Vector:
         """X . d, mm."""
@@ -90,7 +90,7 @@ class Cylinders:
     @property
     def what(self) -> str:
         """A cylinder, named by its radius."""
-        return f"cylinder about {'xyz'[self.axis]} of r"
+        return f"cylinder about {'xyz'[self.axis]}, r"
 
     def height(self, X: Points) -> Vector:
         """Radius, mm."""

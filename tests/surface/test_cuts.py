@@ -93,10 +93,8 @@ def test_loops_begin_at_the_leading_edge_and_name_both_edges(edge: str, count: i
     assert np.all(np.diff(cut.t[: te + 1]) > 0)
     assert np.all(np.diff(cut.t[te + 1 :]) < 0)
     assert cut.te == ((te, te + 1) if edge == "blunt" else (te,))
-    section = cut.section
-    assert (section.le, section.te, section.closed, section.suction) == (
-        cut.le, cut.te, True, "first",
-    )  # fmt: skip
+    made = cut.section
+    assert (made.le, made.te, made.closed, made.suction) == (cut.le, cut.te, True, "first")
 
 
 def test_normals_are_unit_vectors_out_of_the_metal():
@@ -145,8 +143,8 @@ def test_sections_are_named_by_their_place_and_come_hub_first():
     assert [cut.name for cut in cuts(blade, None, [0.25, 1.0])] == ["u0.25", "u1"]
     named = cuts(blade, R, [240.0, 190.5], names=["tip", "hub"])
     assert [cut.name for cut in named] == ["hub", "tip"]
-    down = Planes(np.array([-1.0, 0.0, 0.0]))
-    assert [cut.place for cut in cuts(blade, down, [-240.0, -190.5])] == [-190.5, -240.0]
+    down = cuts(blade, Planes(np.array([-1.0, 0.0, 0.0])), [-240.0, -190.5])
+    assert [cut.place for cut in down] == [-190.5, -240.0]
 
 
 def test_a_surface_is_continued_a_little_beyond_its_ends():
@@ -161,7 +159,7 @@ def test_a_surface_is_continued_a_little_beyond_its_ends():
     ("level", "place", "said"),
     [
         (X, 300.0, r"plane x = 300 mm misses the blade; from edge to edge it is cut from 180.* to"),
-        (R, 100.0, r"cylinder about z of r = 100 mm misses the blade; .* to 25"),
+        (R, 100.0, r"cylinder about z, r = 100 mm misses the blade; .* to 25"),
         (Planes(np.array([1.0, 0.6, 0.0])), 220.0, r"cuts only a part of the blade; from edge"),
         (None, 1.2, r"u = 1.2 misses the blade: .* 5 % of the span at most"),
         (Planes(np.array([0.0, 0.0, 1.0])), 10.0, r"plane z = const cuts"),
@@ -186,7 +184,7 @@ def test_what_makes_no_section_is_refused(places, points: int, said: str):
 
 
 def test_a_file_needs_two_sections():
-    with pytest.raises(ToleranceError, match="1 stations; a file of sections needs 2"):
+    with pytest.raises(ToleranceError, match="1 station; a file of sections needs 2"):
         evenly(rotor(), X, 1)
 
 
