@@ -121,7 +121,8 @@ def mesh_passage(
     X = mesh.vertices
     return Passage(
         mesh, blade, channel, camber, count, angle, twins, volume, missing, max(ends),
-        _apart(X, twins, blade.axis, 2.0 * np.pi / count), max(errors), free, _fluid(camber, blade), notes,
+        _apart(X, twins, blade.axis, 2.0 * np.pi / count), max(errors), free,
+        _fluid(camber, blade), notes,
     )  # fmt: skip
 
 
