@@ -55,8 +55,7 @@ def write_vtp(mesh: NamedMesh, path: str | os.PathLike[str], point_data: Data) -
 
     body, cells, names = vtkPolyData(), vtkCellArray(), vtkStringArray()
     k = mesh.triangles
-    ids = np.column_stack([np.full(len(k), 3), k]).ravel().astype(np.int64)
-    cells.SetCells(len(k), numpy_to_vtkIdTypeArray(ids, deep=True))
+    cells.SetData(3, numpy_to_vtkIdTypeArray(np.ascontiguousarray(k).ravel(), deep=True))
     body.SetPoints(_points(mesh.vertices))
     body.SetPolys(cells)
     _attach(body.GetPointData(), point_data)
