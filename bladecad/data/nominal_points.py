@@ -8,13 +8,15 @@
     176.697245 -20.683810 0.281091 -0.36 -0.93 0.02
 
 NOSE and TAIL number the points of the leading and the trailing edge from 1; two numbers and SQUARE
-mark a cut-off edge. Keywords are those of Hexagon's PC-DMIS Blade help, "Nominal File Keywords".
+mark a cut-off edge. The first point is not repeated at the end. Keywords are those of Hexagon's
+PC-DMIS Blade help, "Nominal File Keywords".
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
@@ -136,7 +138,9 @@ def _section(text: Text, start: int) -> Section:
                     f"{text.at(i)}: point {max(places)} of {len(rows)}; correct the number"
                 )
             tags |= {k - 1: f"{EDGES[words[0]]}{n}" for n, k in enumerate(places, 1)}
-    return loop(text.lines[start].split()[1], table(text, rows), tags)
+    section = loop(text.lines[start].split()[1], table(text, rows), tags)
+    cut = (len(section.points) - 1, 0)
+    return replace(section, closed=cut not in (section.le, section.te))
 
 
 def _edge(word: str, corners: tuple[int, ...]) -> str:

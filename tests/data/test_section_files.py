@@ -42,7 +42,7 @@ def test_a_nominal_comes_back_with_its_edges_and_normals(edge: str, tmp_path: Pa
     assert (read.source.format, read.source.unit_from) == ("PC-DMIS nominal", "file")
     for a, b in zip(blade.sections, read.sections, strict=True):
         np.testing.assert_allclose(b.points, a.points, rtol=0, atol=1e-7)
-        assert (b.name, b.le, b.te) == (a.name, a.le, a.te)
+        assert (b.name, b.le, b.te, b.closed) == (a.name, a.le, a.te, edge == "round")
     for mine, theirs in zip(normals, normals_of(read_text(file)), strict=True):
         np.testing.assert_allclose(theirs, mine, rtol=0, atol=1e-9)
 
