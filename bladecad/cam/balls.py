@@ -12,7 +12,7 @@ from bladecad.deviation.skin import Skin, search
 
 SHRINKS: Final = 60
 SAME: Final = 1e-7  # relative change of radius at which a ball has stopped shrinking
-CLOSE: Final = 1e-6  # of the radius: a touching place so near is the curvature there itself
+SLIGHT: Final = 1e-7  # mm; a ball that goes in no deeper is empty
 
 
 @final
@@ -53,10 +53,11 @@ def balls(skin: Skin, points: Points, directions: Points, most: Vector) -> Balls
     active = np.arange(len(points))
     for _ in range(SHRINKS):
         p, n = points[active], directions[active]
-        q = search(skin, p + r[active, None] * n).foot
+        found = search(skin, p + r[active, None] * n)
+        q, into = found.foot, r[active] - np.abs(found.distance)
         away = q - p
         square, along = (np.einsum("kx,kx->k", away, v) for v in (away, n))
-        there = (along > 0.0) & (square > (CLOSE * r[active]) ** 2)
+        there = (along > 0.0) & (into > SLIGHT)
         smaller = np.where(there, square / np.where(there, 2.0 * along, 1.0), np.inf)
         shrunk = smaller < r[active] * (1.0 - SAME)
         active, q = active[shrunk], q[shrunk]

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final, final
+from typing import final
 
 import numpy as np
 
 from bladecad.arrays import Array, Points, Vector, seal
 from bladecad.surface.blade import BladeSurface, normals, principal_curvatures
 from bladecad.surface.loft import SIDES, graded
-
-EDGE: Final = 0.05  # of a side in t: nearer, a place is called after the edge
+from bladecad.tolerance import EDGE_ZONE
 
 
 @final
@@ -49,7 +48,7 @@ class Places:
         """Say where the place of that number, of all, lies."""
         side, i, j = np.unravel_index(index, self.k1.shape)
         u, t = self.u[i], self.t[j]
-        where = "leading edge" if t < EDGE else "trailing edge" if t > 1.0 - EDGE else ""
+        where = "leading edge" if t < EDGE_ZONE else "trailing edge" if t > 1.0 - EDGE_ZONE else ""
         return f"{where or SIDES[side] + ' side'} at u = {u:.3f}, t = {t:.4f}"
 
 

@@ -27,11 +27,13 @@ def tube(
     *,
     taper: float = 0.0,
     bow: float = 0.0,
+    beside: float = 0.0,
     sections: int = 2,
 ) -> BladeSurface:
     """An elliptic tube along z, from x = -a to x = a, exact: half the turn that is a flow a side.
 
     taper : share by which the tip is smaller
+    beside : mm in x of the axis of the tube from the origin
     bow   : mm by which half span stands off towards +y, a parabola in u
     """  # fmt: skip
     A = np.zeros((3, 3))
@@ -39,7 +41,7 @@ def tube(
     orbit, span = Orbit(A, np.array([1.0, 0.0, 1.0])), np.linspace(0.0, 1.0, sections)
     scale, off = 1.0 - taper * span, 4.0 * bow * span * (1.0 - span)
     sides = [
-        np.array([[[-a * s, 0, 0], [0, y * b * s, 0], [0, o, height * u]]
+        np.array([[[-a * s, 0, 0], [0, y * b * s, 0], [beside, o, height * u]]
                   for u, s, o in zip(span, scale, off, strict=True)])
         for y in (1.0, -1.0)
     ]  # fmt: skip
