@@ -91,11 +91,24 @@ def convert(
     asked = {"stations": stations, "points": points, "on": on, "span_axis": span_axis}
     said = {option: value for option, value in asked.items() if value is not None}
     if not said and output.suffix.lower() != ".nom" and not is_model(path):
+        _refuse_for_points(le=le, suction=suction)
         return _as_they_are(path, output, units, axis, force=force, quiet=quiet)
     from bladecad.pipeline.build import Settings
 
     settings = Settings(tolerance=tolerance, unit=units, axis=axis, le=le, suction=suction)
     return _cut(path, output, settings, said, force=force, quiet=quiet)
+
+
+def _refuse_for_points(**asked: Any) -> None:
+    """Refuse what would be passed over where points stay as they are."""
+    from bladecad.errors import ToleranceError
+
+    for option, value in asked.items():
+        if value is not None:
+            raise ToleranceError(
+                f"--{option} {value} is for sections that are cut from the blade; give --on, "
+                "--stations or --points too, or leave it out"
+            )
 
 
 def _as_they_are(

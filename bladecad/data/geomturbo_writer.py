@@ -43,7 +43,7 @@ def _sides(section: Section, turn: int) -> tuple[Points, Points]:
     if sides is None or section.suction is None:
         raise ExportError(
             f'section "{section.name}": AutoGrid needs suction and pressure side by name, they are '
-            "not known; find the sides first, or write .csv or .curve"
+            "not known; let bladecad convert find them with --on streams, or write .csv or .curve"
         )
     first, second = (np.roll(side, turn, axis=1) / 1000 for side in sides)
     return (first, second) if section.suction == "first" else (second, first)

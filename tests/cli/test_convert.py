@@ -189,4 +189,6 @@ def test_units_of_a_model_and_broken_input_are_refused(model: Path, tmp_path: Pa
     broken = FIXTURES / "broken" / "nan.csv"
     assert run("convert", broken, tmp_path / "a.csv", "--stations", "5")[0] == 2
     assert run("convert", model, tmp_path / "a.dwg")[0] == 2
+    code, _, err = run("convert", GOOD, tmp_path / "a.csv", "--le", "low")
+    assert (code, "--le low is for sections that are cut" in err) == (2, True)
     assert not list(tmp_path.iterdir())
