@@ -15,7 +15,7 @@ from bladecad.meshes.measure import away_from_ruled, away_from_sides
 from bladecad.meshes.named import NamedMesh
 from bladecad.meshes.numbering import Line, Numbering, number
 from bladecad.meshes.quality import Quality, qualities
-from bladecad.meshes.sizing import Sizing, chordwise, largest_growth, spanwise
+from bladecad.meshes.sizing import Sizing, chordwise, largest_growth, least_rows, spanwise
 from bladecad.meshes.strips import capped, outward_mesh, zipped
 from bladecad.surface.blade import BladeSurface
 from bladecad.surface.grid import rim
@@ -79,6 +79,8 @@ def mesh_blade(surface: BladeSurface, sizing: Sizing) -> BladePatches:
     asked = sizing.chord_error
     for _ in range(MOST_ROUNDS):
         t = chordwise(surface, sizing)
+        if 4 * len(t) * least_rows(surface, sizing) > LARGEST:
+            break
         rows = spanwise(surface, t, sizing)
         if 4 * sum(map(len, rows)) > LARGEST:
             break

@@ -122,6 +122,13 @@ def spanwise(surface: BladeSurface, t: Vector, sizing: Sizing) -> list[Vector]:
     return [even(s, u, max(int(n), 2)) for s, n in zip(length.T, np.maximum(count, 2), strict=True)]
 
 
+def least_rows(surface: BladeSurface, sizing: Sizing) -> float:
+    """Fewer cells than any line t = const has from hub to tip."""
+    ends = [surface(side, np.array([0.0, 1.0]), graded(9)) for side in SIDES]
+    height = min(float(np.linalg.norm(X[1] - X[0], axis=1).min()) for X in ends)
+    return height / sizing.size
+
+
 def _neighbours(X: Array) -> Vector:
     """Mean distance, over the span, of every line t = const from the nearer of its neighbours."""
     gap = np.linalg.norm(np.diff(X, axis=1), axis=2).mean(axis=0)

@@ -72,12 +72,12 @@ def write_blade_mesh(
 def _write_triangles(
     blade: BladeFile, stage: Path, form: MeshFormat, sizing: Sizing
 ) -> tuple[NamedMesh, Reached]:
+    cells, axis = cells_for(blade.surface, sizing), blade.machine.axis
     patches = mesh_blade(blade.surface, sizing)
     data = {}
     if form == "vtk":
         data = _point_data(blade.surface, patches)
         _write_vts(blade, stage, sizing)
-    cells, axis = cells_for(blade.surface, sizing), blade.machine.axis
     write_mesh(patches.mesh, stage, form, blade.name, cells, axis=axis, point_data=data)
     return patches.mesh, {
         "chord_error_mm": patches.chord_error,
