@@ -204,3 +204,24 @@ def test_where_a_real_scan_is_worse_is_told_with_the_reason(turbine):
     worst = turbine.scanned.worst[0]
     assert worst.why
     assert abs(worst.place.deviation) > 5.0 * turbine.noise
+
+
+def test_a_coarse_mesh_is_told_by_its_triangles(tmp_path):
+    """A CAD program's mesh, a few thousand vertices on long triangles."""
+    truth = truth_surface("synthetic-thick")
+    u, t = np.linspace(0.0, 1.0, 20), 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 100))
+    X = np.concatenate([truth(side, u, t).reshape(-1, 3) for side in ("suction", "pressure")])
+    ids = np.arange(len(X)).reshape(2, len(u), len(t))
+    a, b, c, d = (k.ravel() for k in (ids[:, :-1, :-1], ids[:, :-1, 1:], ids[:, 1:, 1:],
+                                      ids[:, 1:, :-1]))  # fmt: skip
+    corners = np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+    flat = np.abs(project(nominal_for(truth), X[corners].mean(axis=1)).distance).max()
+    trimesh.Trimesh(X, corners, process=False).export(tmp_path / "coarse.ply")
+
+    blade = build_scan(tmp_path / "coarse.ply", ScanSettings(tolerance=0.05))
+    assert blade.within, blade.reasons
+    assert any("on its triangles were taken" in note for note in blade.sections.source.notes)
+    where = np.random.default_rng(1).uniform(0.1, 0.9, (2, 500))
+    away = project(nominal_of(blade.surface), truth.at("suction", *where)).distance
+    assert 0.0 < flat < 0.02
+    assert np.abs(away).max() < 1.5 * flat

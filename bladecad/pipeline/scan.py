@@ -24,6 +24,7 @@ from bladecad.pipeline.scan_named import named
 from bladecad.pipeline.scan_settings import ScanSettings
 from bladecad.scans.blade_frame import blade_frame
 from bladecad.scans.finding.airfoil import Airfoil, find_airfoil
+from bladecad.scans.finding.denser import denser, is_coarse
 from bladecad.scans.fitting.whole import WholeFit, fit_scan
 from bladecad.scans.judging.scanned import Scanned, deviation_of_scan
 from bladecad.scans.judging.support import find_gaps
@@ -116,9 +117,12 @@ def sections_of_scan(
 def airfoil_of(scan: Scan, settings: ScanSettings) -> Airfoil:
     """Find what of the scan is airfoil, as the settings say."""
     with _said_of(scan):
-        return find_airfoil(
-            scan, axis=settings.direction, span=settings.span, height=settings.height,
-        )  # fmt: skip
+        found = _found(scan, settings)
+        return _found(denser(found), settings) if is_coarse(found) else found
+
+
+def _found(scan: Scan, settings: ScanSettings) -> Airfoil:
+    return find_airfoil(scan, axis=settings.direction, span=settings.span, height=settings.height)
 
 
 def slices_of(airfoil: Airfoil, settings: ScanSettings) -> tuple[Sections, BladeLines]:
