@@ -8,10 +8,13 @@ import typer
 
 from bladecad import __version__
 from bladecad.cli.build import build
+from bladecad.cli.cam_sheet import cam_sheet
 from bladecad.cli.check import check
 from bladecad.cli.convert import convert
+from bladecad.cli.export import export
 from bladecad.cli.fit import fit
 from bladecad.cli.info import info
+from bladecad.cli.mesh import mesh
 from bladecad.cli.paper import paper
 from bladecad.cli.sections import sections
 
@@ -47,5 +50,5 @@ def common(
     """Measured compressor blades to certified CAD."""
 
 
-for command in (build, sections, check, fit, info, convert, paper):
+for command in (build, sections, check, export, cam_sheet, mesh, convert, fit, info, paper):
     app.command(epilog=CODES)(command)
