@@ -15,6 +15,7 @@ from bladecad.cli.guard import Exit, guarded
 
 if TYPE_CHECKING:
     from bladecad.pipeline.blade_file import BladeFile
+    from bladecad.pipeline.passage_settings import PassageSettings
 
 FormatChoice: TypeAlias = Literal["openfoam", "stl", "msh", "plot3d", "vtk"]
 SIZES = "How large the triangles are"
@@ -67,6 +68,7 @@ def mesh(
     hub_gap: asked.HubGap = 0.0,
     inlet: asked.Inlet = None,
     outlet: asked.Outlet = None,
+    step: asked.Step = False,
     name: ask.Name = None,
     force: ask.Force = False,
     quiet: ask.Quiet = False,
@@ -85,28 +87,32 @@ def mesh(
         "walls": walls, "blades": blades, "tip_gap": tip_gap, "hub_gap": hub_gap,
         "inlet": inlet, "outlet": outlet,
     }  # fmt: skip
-    if not (passage or row):
-        _refuse_alone(domain)
     sizes = {"size": size, "chord_error": chord_error, "growth": growth, "edge": edge_size}
+    settings = _settings({**domain, **sizes}) if passage or row else None
+    if settings is None:
+        asked.refuse_alone({**domain, "step": step})
     check_folder(output, force=force)
     with progress(quiet=quiet) as tell:
         blade = _blade(path, name, tell)
-        if passage or row:
-            said, notes = _write_passage(blade, output, format, row, {**domain, **sizes}, force)
+        tell("mesh")
+        notes = blade.notes
+        if settings is None:
+            said = _write_blade(blade, output, format, sizes, force)
         else:
-            said, notes = _write_blade(blade, output, format, sizes, force), ()
-    _show(said, (*blade.notes, *notes), output, quiet=quiet)
+            from bladecad.pipeline.passage import write_passage
+
+            made, said = write_passage(
+                blade, output, format, settings, row=row, step=step, force=force
+            )
+            notes += made.notes
+    _show(said, notes, output, quiet=quiet)
     return Exit.WITHIN
 
 
-def _refuse_alone(domain: Mapping[str, Any]) -> None:
-    """Options of the passage say nothing of a blade alone."""
-    from bladecad.errors import ToleranceError
+def _settings(what: dict[str, Any]) -> PassageSettings:
+    from bladecad.pipeline.passage_settings import PassageSettings
 
-    given = [name for name, value in domain.items() if value not in (None, 0.0)]
-    if given:
-        flag = given[0].replace("_", "-")
-        raise ToleranceError(f"--{flag} is about the passage; give --passage or --row with it")
+    return PassageSettings(**what)
 
 
 def _write_blade(
@@ -119,16 +125,6 @@ def _write_blade(
         sizes["chord_error"] = 0.01
     sizing = sizing_for(blade.surface, **sizes)
     return write_blade_mesh(blade, output, format, sizing, force=force)
-
-
-def _write_passage(
-    blade: BladeFile, output: Path, format: Any, row: bool, asked: dict[str, Any], force: bool
-) -> tuple[Mapping[str, Any], tuple[str, ...]]:
-    from bladecad.pipeline.passage import PassageSettings, write_passage
-
-    settings = PassageSettings(**asked)
-    passage, said = write_passage(blade, output, format, settings, row=row, force=force)
-    return said, passage.notes
 
 
 def _blade(path: Path, name: str | None, tell: Any) -> BladeFile:
@@ -168,3 +164,8 @@ def _table(said: Mapping[str, Any]) -> Iterator[str]:
             f"{reached['periodic_error_mm']:.1e} mm, blade ends {reached['trim_error_mm']:.1e} mm "
             f"off; {reached['clearance_mm']:.3g} mm from blade to periodic face"
         )
+        if "solid_volume_error" in reached:
+            yield (
+                f"STEP solid: volume {reached['solid_volume_error']:.1e} (relative) off, edges "
+                f"{1e3 * reached['edge_tolerance_mm']:.2g} um, {len(reached['faces'])} faces"
+            )

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -48,3 +49,18 @@ Outlet = Annotated[
     typer.Option("--outlet", metavar="MM", show_default=False, rich_help_panel=PASSAGE,
                  help="Along both walls behind the trailing edge; else a chord."),
 ]  # fmt: skip
+Step = Annotated[
+    bool,
+    typer.Option("--step", rich_help_panel=PASSAGE,
+                 help="The passage of one blade as a STEP solid, too, beside the mesh."),
+]  # fmt: skip
+
+
+def refuse_alone(given: Mapping[str, Any]) -> None:
+    """Raise ToleranceError where an option of the passage is given for a blade alone."""
+    from bladecad.errors import ToleranceError
+
+    names = [name for name, value in given.items() if value not in (None, 0.0, False)]
+    if names:
+        flag = names[0].replace("_", "-")
+        raise ToleranceError(f"--{flag} is about the passage; give --passage or --row with it")

@@ -20,6 +20,7 @@ from bladecad.brep.names import (
     TIP,
     TRAILING_EDGE,
 )
+from bladecad.brep.passage_solid import PassageSolid
 from bladecad.brep.solid import Solid
 
 COLOURS: Final[Mapping[str, tuple[float, float, float]]] = {  # sRGB, as seen on the screen
@@ -30,15 +31,22 @@ COLOURS: Final[Mapping[str, tuple[float, float, float]]] = {  # sRGB, as seen on
     LEADING_EDGE: (0.95, 0.77, 0.28),
     TRAILING_EDGE: (0.45, 0.66, 0.38),
     AIRFOIL: (0.60, 0.63, 0.70),
+    "BLADE_SUCTION": (0.26, 0.52, 0.76),
+    "BLADE_PRESSURE": (0.86, 0.44, 0.32),
+    "BLADE_LE": (0.95, 0.77, 0.28),
+    "BLADE_TE": (0.45, 0.66, 0.38),
+    "INLET": (0.45, 0.70, 0.90),
+    "OUTLET": (0.93, 0.60, 0.45),
 }
+OTHER: Final = (0.70, 0.74, 0.70)
 
 
-def document(solid: Solid, name: str, spelt: Callable[[str], str] = str) -> Any:
+def document(solid: Solid | PassageSolid, name: str, spelt: Callable[[str], str] = str) -> Any:
     """Return a document of the kernel with one solid at its root.
 
     Parameters
     ----------
-    solid : Solid
+    solid : Solid, PassageSolid
     name : str
         Of the product.
     spelt : callable
@@ -68,4 +76,4 @@ def _name(label: Any, text: str) -> None:
 
 
 def _colour(face_name: str) -> Quantity_Color:
-    return Quantity_Color(*COLOURS[face_name], Quantity_TypeOfColor.Quantity_TOC_sRGB)
+    return Quantity_Color(*COLOURS.get(face_name, OTHER), Quantity_TypeOfColor.Quantity_TOC_sRGB)

@@ -16,6 +16,7 @@ from OCP.STEPControl import STEPControl_StepModelType
 from OCP.TCollection import TCollection_HAsciiString
 
 from bladecad.brep.kernel import kernel
+from bladecad.brep.passage_solid import PassageSolid
 from bladecad.brep.solid import Solid
 from bladecad.brep.statics import statics
 from bladecad.errors import ExportError
@@ -35,13 +36,17 @@ SETTINGS: Final[Mapping[str, str]] = {
 
 
 def write_step(
-    solid: Solid, path: str | os.PathLike[str], *, name: str, schema: Schema = "AP242DIS"
+    solid: Solid | PassageSolid,
+    path: str | os.PathLike[str],
+    *,
+    name: str,
+    schema: Schema = "AP242DIS",
 ) -> None:
-    """Write the blade as STEP, or nothing at all.
+    """Write a blade, or the passage round it, as STEP, or nothing at all.
 
     Parameters
     ----------
-    solid : Solid
+    solid : Solid, PassageSolid
         In mm; the names, colours and layers of its faces go into the file.
     path : path
         Replaced when it exists; written beside first and then renamed.

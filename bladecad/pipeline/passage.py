@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final, final
+from typing import Any, Final
 
 import numpy as np
 
-from bladecad.data.sections import Row, Unit
+from bladecad.data.sections import Row
 from bladecad.errors import DataError, ToleranceError
 from bladecad.export.stage import staged
 from bladecad.export.text import write_json
@@ -19,54 +18,15 @@ from bladecad.passage.channel import channel_of, edges_on
 from bladecad.passage.domain import Passage, mesh_passage
 from bladecad.passage.read_walls import walls_of
 from bladecad.passage.row import full_row
-from bladecad.passage.trim import LIMIT, WALLS, Trimmed
+from bladecad.passage.trim import WALLS, Trimmed
 from bladecad.passage.walls import turned_round, walls
 from bladecad.pipeline.blade_file import BladeFile
 from bladecad.pipeline.mesh import DIGITS, REPORT, MeshFormat, report, write_mesh
 from bladecad.pipeline.mesh_sizing import cells_for
+from bladecad.pipeline.passage_settings import PassageSettings
 
 A_PITCH: Final = 10.0  # steps on the pitch at mid-span, where no size is asked
 A_SIZE: Final = 200.0  # chord errors in a size, where none is asked
-
-
-@final
-@dataclass(frozen=True)
-class PassageSettings:
-    """What is asked of a passage; None leaves it to the file, or to what suits the blade.
-
-    walls            : file of hub and shroud
-    unit             : of that file, where it does not say
-    blades           : in the row
-    tip_gap, hub_gap : mm, 0 where the blade stands on the wall
-    inlet, outlet    : mm along both walls, ahead of the leading and behind the trailing edge
-    size, chord_error, growth, edge : of the triangles, as `Sizing`
-    limit            : of the span, how far the surface may be continued to reach a wall
-    """
-
-    walls: Path | None = None
-    unit: Unit | None = None
-    blades: int | None = None
-    tip_gap: float = 0.0
-    hub_gap: float = 0.0
-    inlet: float | None = None
-    outlet: float | None = None
-    size: float | None = None
-    chord_error: float | None = None
-    growth: float = 1.2
-    edge: float | None = None
-    limit: float = LIMIT
-
-    def __post_init__(self) -> None:
-        for name in ("tip_gap", "hub_gap"):
-            if not 0.0 <= getattr(self, name) < np.inf:
-                said = name.replace("_", " ")
-                raise ToleranceError(f"a {said} of {getattr(self, name):g} mm is asked; 0 or more")
-        for name in ("inlet", "outlet"):
-            value = getattr(self, name)
-            if value is not None and not 0.0 < value < np.inf:
-                raise ToleranceError(f"an {name} {value:g} mm away is asked; it must be above 0")
-        if self.blades is not None and self.blades < 2:
-            raise ToleranceError(f"{self.blades} blades are asked; a row has 2 at least")
 
 
 def passage_of(blade: BladeFile, settings: PassageSettings) -> Passage:
@@ -109,9 +69,20 @@ def write_passage(
     settings: PassageSettings,
     *,
     row: bool = False,
+    step: bool = False,
     force: bool = False,
 ) -> tuple[Passage, Mapping[str, Any]]:
     """Write the passage of a blade, or its whole row, with `mesh.json` beside; all or nothing.
+
+    Parameters
+    ----------
+    blade, folder, form, force
+        As `write_blade_mesh` takes them.
+    settings : PassageSettings
+    row : bool
+        The mesh of all blades of the row.
+    step : bool
+        The passage of one blade as a STEP solid, too.
 
     Returns
     -------
@@ -130,9 +101,25 @@ def write_passage(
         sizing = _sizing(passage.blade, passage.count, settings)
         cells = cells_for(blade.surface, sizing)
         write_mesh(mesh, stage, form, name, cells, axis=blade.machine.axis)
-        said = report(mesh, form, name, sizing, reached(passage), stage)
+        found = reached(passage)
+        if step:
+            found |= _write_step(passage, stage, blade.name)
+        said = report(mesh, form, name, sizing, found, stage)
         write_json(said, stage / REPORT, digits=DIGITS)
     return passage, said
+
+
+def _write_step(passage: Passage, stage: Path, name: str) -> dict[str, Any]:
+    from bladecad.export.passage_step import write_passage_step
+    from bladecad.passage.outlines import shape_of
+
+    file = stage / f"{name}_passage.step"
+    solid = write_passage_step(shape_of(passage), file, name=f"{name} passage")
+    return {
+        "solid_volume_error": solid.volume_error,
+        "edge_tolerance_mm": solid.edge_tolerance,
+        "faces": list(solid.faces),
+    }
 
 
 def reached(passage: Passage) -> dict[str, Any]:
