@@ -1,5 +1,6 @@
 # make demo   build the NASA Rotor 37 blade from fixtures/ into exports/rotor37
 # make test   run the tests
+# make consumers  run OpenFOAM on our files; as root on Debian it installs openfoam first
 # make check  formatting, lint, types, and the import contract
 # make bench  measure speed (tests/benchmarks)
 # make lock   write requirements.lock anew from a clean environment
@@ -24,7 +25,7 @@ find_python = \
 
 install = $(1)/pip install --quiet 'pip>=25.1' && $(1)/pip install --quiet --editable . --group dev
 
-.PHONY: demo test check bench lock clean
+.PHONY: demo test consumers check bench lock clean
 
 demo: $(STAMP)
 	$(BIN)/bladecad build fixtures/rotor37/sections.csv -o $(DEMO) --tolerance 0.012 --name rotor37 --force
@@ -32,6 +33,12 @@ demo: $(STAMP)
 
 test: $(STAMP)
 	$(BIN)/pytest -n auto --dist loadfile
+
+consumers: $(STAMP)
+	@command -v snappyHexMesh >/dev/null || \
+		{ apt-get update -qq && apt-get install -y -qq --no-install-recommends openfoam; } || \
+		{ echo 'OpenFOAM is needed, on the path; on Debian: apt-get install openfoam' >&2; exit 1; }
+	$(BIN)/pytest tests/consumers -m consumers --durations=0
 
 check: $(STAMP)
 	$(BIN)/ruff format --check

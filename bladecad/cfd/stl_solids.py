@@ -10,7 +10,7 @@ from typing import Final, Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from bladecad.arrays import Array
+from bladecad.arrays import Array, Points
 from bladecad.cfd.fixed import Text, fixed, parsed, scaled
 from bladecad.cfd.written import beside
 from bladecad.errors import ExportError
@@ -20,7 +20,7 @@ from bladecad.surface.ruled import Triangles
 StlUnit: TypeAlias = Literal["m", "mm"]
 PER_MM: Final[Mapping[StlUnit, float]] = {"m": 1e-3, "mm": 1.0}
 DIGITS: Final[Mapping[StlUnit, int]] = {"m": 10, "mm": 7}  # after the point: 0.1 nm
-OF_NORMALS: Final = 6
+OF_NORMALS: Final = 5
 AT_ONCE: Final = 100_000
 END: Final = b"endfacet\n"
 
@@ -49,14 +49,15 @@ def write_stl_solids(mesh: NamedMesh, path: str | os.PathLike[str], *, unit: Stl
     same text, and the printed mesh is closed where the mesh is.
     """
     numbers = printed(mesh, unit)
+    lines, shares = _vertex_lines(numbers, unit), _shares()
     with beside(path) as part:
         with part.open("wb") as file:
             for name, triangles in mesh.patches.items():
                 file.write(f"solid {name}\n".encode())
-                for block in _facets(mesh, numbers, triangles, unit):
+                for block in _facets(mesh.vertices, triangles, lines, shares):
                     file.write(block.data)
                 file.write(f"endsolid {name}\n".encode())
-        _confirm(mesh, numbers, part)
+        _confirm(mesh, numbers, lines, part)
 
 
 def printed(mesh: NamedMesh, unit: StlUnit) -> NDArray[np.int64]:
@@ -80,18 +81,25 @@ def printed(mesh: NamedMesh, unit: StlUnit) -> NDArray[np.int64]:
     return numbers
 
 
-def _facets(
-    mesh: NamedMesh, numbers: NDArray[np.int64], triangles: Triangles, unit: StlUnit
-) -> Iterator[Text]:
+def _facets(vertices: Points, triangles: Triangles, lines: Text, shares: Text) -> Iterator[Text]:
     """Records of one length, a facet each, some at a time."""
-    text = fixed(numbers, DIGITS[unit])
-    corner = np.concatenate([_word("vertex", text), *_spaced(text), _word("\n", text)], axis=1)
     for start in range(0, len(triangles), AT_ONCE):
         some = triangles[start : start + AT_ONCE]
-        n = fixed(scaled(_normals(mesh.vertices[some]), OF_NORMALS), OF_NORMALS)
+        n = shares[scaled(_normals(vertices[some]), OF_NORMALS) + 10**OF_NORMALS]
         head = [_word("facet normal", n), *_spaced(n), _word("\nouter loop\n", n)]
-        corners = [corner[some[:, i]] for i in range(3)]
+        corners = [lines[some[:, i]] for i in range(3)]
         yield np.concatenate([*head, *corners, _word("endloop\nendfacet\n", n)], axis=1)
+
+
+def _vertex_lines(numbers: NDArray[np.int64], unit: StlUnit) -> Text:
+    """The line of every vertex, (n, w)."""
+    text = fixed(numbers, DIGITS[unit])
+    return np.concatenate([_word("vertex", text), *_spaced(text), _word("\n", text)], axis=1)
+
+
+def _shares() -> Text:
+    """All numbers from -1 to 1 that a normal is written with."""
+    return fixed(np.arange(-(10**OF_NORMALS), 10**OF_NORMALS + 1), OF_NORMALS)
 
 
 def _spaced(text: Text) -> list[Text]:
@@ -108,8 +116,8 @@ def _normals(X: Array) -> Array:
     return np.asarray(n / np.maximum(np.linalg.norm(n, axis=1, keepdims=True), 1e-300))
 
 
-def read_stl_solids(path: str | os.PathLike[str]) -> dict[str, NDArray[np.int64]]:
-    """Read what `write_stl_solids` wrote: corners in units of the last digit, (k, 3, 3) a solid.
+def read_stl_solids(path: str | os.PathLike[str]) -> dict[str, Text]:
+    """Read what `write_stl_solids` wrote: the lines of the corners of every facet, (k, 3, w).
 
     Raises
     ------
@@ -132,25 +140,33 @@ def read_stl_solids(path: str | os.PathLike[str]) -> dict[str, NDArray[np.int64]
     return found
 
 
-def _corners(block: Text) -> NDArray[np.int64]:
-    record = block[: bytes(block[:1000]).find(END) + len(END)]
-    lines = bytes(record).split(b"\n")
-    starts = np.cumsum([0, *(len(line) + 1 for line in lines)])
-    records, width = block.reshape(-1, len(record)), (len(lines[2]) - len("vertex")) // 3
-    corners = np.empty((len(records), 3, 3), np.int64)
-    for start in range(0, len(records), AT_ONCE // 4):
-        some = records[start : start + AT_ONCE // 4]
-        for i in range(3):
-            first = starts[2 + i] + len("vertex")
-            text = some[:, first : first + 3 * width].reshape(-1, 3, width)
-            corners[start : start + len(some), i] = parsed(text)
-    return corners
+def _corners(block: Text) -> Text:
+    """The three lines of corners in records of one length."""
+    record = bytes(block[:1000])
+    length, first = record.find(END) + len(END), record.find(b"vertex")
+    width = record.find(b"\n", first) + 1 - first
+    records = block.reshape(-1, length)
+    return records[:, first : first + 3 * width].reshape(-1, 3, width)
 
 
-def _confirm(mesh: NamedMesh, numbers: NDArray[np.int64], path: Path) -> None:
+def places(lines: Text, unit: StlUnit = "m") -> Array:
+    """Where corners are, (..., 3), mm, by the text of their lines, (..., w)."""
+    text = lines[..., len("vertex") : -1]
+    text = text.reshape(*text.shape[:-1], 3, -1)
+    return np.asarray(parsed(text) / 10.0 ** DIGITS[unit] / PER_MM[unit])
+
+
+def _confirm(mesh: NamedMesh, numbers: NDArray[np.int64], lines: Text, path: Path) -> None:
+    """Raise unless every corner has the text of its vertex, and that text its number."""
     again = read_stl_solids(path)
     if list(again) != list(mesh.patches):
         raise ExportError(f"the STL read back has solids {list(again)}, not {list(mesh.patches)}")
+    text = lines[:, len("vertex") : -1].reshape(len(lines), 3, -1)
+    right = np.array_equal(parsed(text), numbers)
     for name, triangles in mesh.patches.items():
-        if not np.array_equal(again[name], numbers[triangles]):
+        right &= len(again[name]) == len(triangles)
+        for start in range(0, len(triangles), AT_ONCE) if right else ():
+            some = slice(start, start + AT_ONCE)
+            right &= np.array_equal(again[name][some], lines[triangles[some]])
+        if not right:
             raise ExportError(f'solid "{name}" of the STL read back is not the one written')

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from bladecad.cfd import stl_solids
 from bladecad.cfd.fixed import fixed, parsed, scaled
-from bladecad.cfd.stl_solids import read_stl_solids, write_stl_solids
+from bladecad.cfd.stl_solids import places, read_stl_solids, write_stl_solids
 from bladecad.errors import ExportError
 from bladecad.meshes.blade import mesh_blade
 from bladecad.meshes.named import NamedMesh
@@ -78,7 +78,7 @@ def test_what_is_read_back_must_be_what_was_written(tmp_path: Path, monkeypatch)
     write_stl_solids(written, tmp_path / "blade.stl")
     corners = read_stl_solids(tmp_path / "blade.stl")
     np.testing.assert_allclose(
-        1e-7 * corners["blade_tip"], written.vertices[written.patches["blade_tip"]], atol=1e-7
+        places(corners["blade_tip"]), written.vertices[written.patches["blade_tip"]], atol=1e-7
     )
     wrong = {**corners, "blade_tip": corners["blade_tip"] + 1}
     for again, words in ((wrong, '"blade_tip"'), ({}, r"has solids \[\]")):

@@ -1,0 +1,91 @@
+"""The case run by the real programs: `make consumers`."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bladecad.deviation.nominal import nominal_of
+from bladecad.deviation.project import project
+from bladecad.meshes.sizing import Sizing
+from bladecad.pipeline.blade_file import BladeFile, load_blade
+from bladecad.pipeline.build import Settings
+from bladecad.pipeline.mesh import write_blade_mesh
+from bladecad.pipeline.mesh_sizing import cells_for, sizing_for
+from tests.consumers.foam import PROGRAMS, VolumeMesh, foam, patch_points, read_mesh
+from tests.meshes.blades import blade
+
+SNAPPED = 0.2  # of the local cell
+
+pytestmark = [
+    pytest.mark.consumers,
+    pytest.mark.skipif(
+        not all(map(shutil.which, PROGRAMS)), reason="OpenFOAM is not on the path: make consumers"
+    ),
+]
+
+
+def edges_of(file: Path) -> set[frozenset[tuple[int, ...]]]:
+    """Edges of an .eMesh, as pairs of places in units of 1e-9 m."""
+    text = file.read_text()
+    points, edges = re.findall(r"\n(\d+)\s*\n\(\n(.*?)\n\)", text, re.DOTALL)
+    X = np.array([row.strip("()").split() for row in points[1].splitlines()], float)
+    places = [tuple(x) for x in np.rint(X * 1e9).astype(int).tolist()]
+    ends = [row.strip("()").split() for row in edges[1].splitlines()]
+    return {frozenset((places[int(a)], places[int(b)])) for a, b in ends}
+
+
+def run(case: Path, name: str) -> tuple[VolumeMesh, str]:
+    """The steps of Allrun, one by one; the mesh, and what checkMesh says."""
+    surface = case / "constant" / "triSurface" / f"{name}.stl"
+    checked = foam("surfaceCheck", str(surface), at=case)
+    assert "Surface is closed. All edges connected to two faces." in checked
+    assert "Number of unconnected parts : 1" in checked
+    assert "Surface has no illegal triangles." in checked
+    ours = edges_of(surface.with_suffix(".eMesh"))
+    foam("surfaceFeatureExtract", at=case)
+    assert edges_of(surface.with_suffix(".eMesh")) == ours
+    foam("blockMesh", at=case)
+    foam("snappyHexMesh", "-overwrite", at=case)
+    return read_mesh(case), foam("checkMesh", at=case)
+
+
+def hold(mesh: VolumeMesh, said: str, blade: BladeFile, sizing: Sizing, named: set[str]) -> None:
+    assert "Mesh OK." in said
+    assert "Failed" not in said
+    assert "Number of regions: 1 (OK)." in said
+    assert {*mesh.boundary} == named
+    assert all(len(faces) > 0 for faces in mesh.boundary.values())
+    nominal, base = nominal_of(blade.surface), cells_for(blade.surface, sizing).base
+    for patch in named:
+        if patch.startswith("blade_"):
+            points, size = patch_points(mesh, patch, base)
+            away = np.abs(project(nominal, points, caps=True).distance)
+            print(patch, len(points), away.max(), (away / size).max())
+            assert np.max(away / size) <= SNAPPED, patch
+
+
+BLADE = {"blade_suction", "blade_pressure", "blade_le", "blade_te", "blade_hub", "blade_tip"}
+
+
+@pytest.mark.parametrize("kind", ["round", "blunt"])
+def test_a_blade_in_an_outer_flow(kind: str, tmp_path: Path):
+    fan = BladeFile("fan", blade(kind))
+    sizing = sizing_for(fan.surface, size=4.0, chord_error=0.02)
+    write_blade_mesh(fan, tmp_path / "case", "openfoam", sizing)
+    mesh, said = run(tmp_path / "case", "fan")
+    hold(mesh, said, fan, sizing, BLADE | {"inlet", "outlet", "far"})
+
+
+def test_rotor_37_in_an_outer_flow_as_allrun_does_it(tmp_path: Path, fixtures: Path):
+    rotor = load_blade(fixtures / "rotor37" / "sections.csv", Settings(tolerance=0.012))
+    sizing = sizing_for(rotor.surface)
+    write_blade_mesh(rotor, tmp_path / "case", "openfoam", sizing)
+    foam("./Allrun", at=tmp_path / "case")
+    said = (tmp_path / "case" / "log.checkMesh").read_text()
+    mesh = read_mesh(tmp_path / "case")
+    hold(mesh, said, rotor, sizing, BLADE | {"inlet", "outlet", "far"})
