@@ -6,20 +6,15 @@ from typing import Final
 
 import numpy as np
 
-from bladecad.arrays import Points, Vector
 from bladecad.cam.fitted import fitted
-from bladecad.cam.parallel import Parallel
-from bladecad.cam.places import places
+from bladecad.cam.mitred import mitred
+from bladecad.cam.offset_error import distance_error
 from bladecad.cam.room import check_room
-from bladecad.deviation.nominal import nominal_of
-from bladecad.deviation.skin import Skin, search, skin_of
-from bladecad.deviation.squares import cut, joined
 from bladecad.errors import GeometryError
 from bladecad.surface.blade import BladeSurface
 from bladecad.surface.loft import Loft, first_breaks
-from bladecad.surface.patch import SplinePatch
 
-BETWEEN: Final = np.linspace(0.0, 1.0, 4)[:-1]
+FACES: Final = 2.0  # times the tolerance, for faces of cut-off edges
 
 
 def offset_loft(surface: BladeSurface, distance: float, *, tolerance: float = 5e-4) -> Loft:
@@ -31,7 +26,8 @@ def offset_loft(surface: BladeSurface, distance: float, *, tolerance: float = 5e
     distance : float
         mm, positive out of the metal. Hub and tip get none: their rims move with the sides.
     tolerance : float
-        mm, of the distance.
+        mm, of the distance of the sides. The face of a cut-off edge is ruled between mitred
+        corners; where it is twisted it may be off by twice as much.
 
     Returns
     -------
@@ -53,46 +49,15 @@ def offset_loft(surface: BladeSurface, distance: float, *, tolerance: float = 5e
     curvature across an edge, so is O (do Carmo, section 3-5, exercise 11: k -> k / (1 + d k)).
     """
     check_room(surface, distance)
-    formula = Parallel(surface, distance).derivatives
+    formula = mitred(surface, distance)
     round_edges = (surface.le == "round", surface.te == "round")
     u = np.unique(surface.knots[0])
     patches = fitted(formula, u, first_breaks(surface), tolerance=tolerance, joined=round_edges)
-    error = _error(surface, patches, abs(distance))
-    if error > tolerance:
+    error = distance_error(formula, patches)
+    allowed = tolerance * (FACES if formula.cut_off else 1.0)
+    if error > allowed:
         raise GeometryError(
-            f"the offset is {1e3 * error:.3g} um off, {1e3 * tolerance:.3g} um are allowed; ask "
-            "for a larger tolerance"
+            f"the offset is {1e3 * error:.3g} um off, {1e3 * allowed:.3g} um are allowed; ask for "
+            "a larger tolerance"
         )
     return Loft(*patches, error)
-
-
-def _error(
-    surface: BladeSurface, patches: tuple[SplinePatch, SplinePatch], distance: float
-) -> float:
-    """Largest deviation of the distance, both ways, mm."""
-    there = np.concatenate([_dense(patch) for patch in patches])
-    back = places(surface).points
-    found = [(nominal_of(surface).sides, there), (_skin(patches), back)]
-    return max(float(np.abs(np.abs(search(*f).distance) - distance).max()) for f in found)
-
-
-def _dense(patch: SplinePatch) -> Points:
-    """Three by three points in every cell of the knots, and the borders."""
-    return patch(_inside(patch.knots_u), _inside(patch.knots_t)).reshape(-1, 3)
-
-
-def _inside(knots: Vector) -> Vector:
-    breaks = np.unique(knots)
-    return np.append((breaks[:-1, None] + np.diff(breaks)[:, None] * BETWEEN).ravel(), 1.0)
-
-
-def _skin(patches: tuple[SplinePatch, SplinePatch]) -> Skin:
-    """Squares of both patches; which way is out does not matter for how far it is."""
-    return skin_of(
-        joined(
-            [
-                cut(patch, np.unique(patch.knots_u), np.unique(patch.knots_t), face=k, sign=1.0)
-                for k, patch in enumerate(patches)
-            ]
-        )
-    )

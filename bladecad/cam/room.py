@@ -6,8 +6,6 @@ from typing import Final
 
 import numpy as np
 
-from bladecad.arrays import Points, Vector
-from bladecad.cam.balls import balls
 from bladecad.cam.places import Places, places
 from bladecad.deviation.nominal import nominal_of
 from bladecad.deviation.skin import search
@@ -75,20 +73,16 @@ def _check_bend(found: Places, distance: float) -> None:
 def _check_others(surface: BladeSurface, found: Places, distance: float) -> None:
     """A parallel place must have its own foot for the nearest of all."""
     skin = nominal_of(surface).sides
-    off = found.points + distance * found.directions
-    nearer = abs(distance) - np.abs(search(skin, off).distance)
+    off = search(skin, found.points + distance * found.directions)
+    on_side = np.isin(skin.squares.face[off.item], (0, 1))  # faces of cut-off edges end the sides
+    nearer = np.where(on_side, abs(distance) - np.abs(off.distance), 0.0)
     worst = int(nearer.argmax())
     if nearer[worst] > NEARER:
         way = "inwards" if distance < 0 else "outwards"
-        r = _room(surface, found.points[[worst]], found.directions[[worst]], distance)
+        p, n = found.points[worst], np.sign(distance) * found.directions[worst]
+        away = off.foot[worst] - p  # the ball at p that meets the other side there
         raise GeometryError(
             f"an offset of {abs(distance):.4g} mm {way} crosses itself: over the "
-            f"{found.named(worst)} there is room for {r[0]:.4g} mm until it meets the other side; "
-            f"offset by less"
+            f"{found.named(worst)} there is room for {away @ away / (2.0 * away @ n):.4g} mm until "
+            "it meets the other side; offset by less"
         )
-
-
-def _room(surface: BladeSurface, points: Points, directions: Points, distance: float) -> Vector:
-    skin = nominal_of(surface).sides
-    most = np.full(len(points), abs(distance))
-    return balls(skin, points, np.sign(distance) * directions, most).radius

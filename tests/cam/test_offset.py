@@ -1,5 +1,7 @@
 """An offset is as far from the blade as was asked for, everywhere, or refused."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import trimesh
@@ -7,11 +9,13 @@ import trimesh
 from bladecad.cam.offset import offset_loft
 from bladecad.cam.parallel import Parallel, unit_derivatives
 from bladecad.cam.variant import Variant, varied
+from bladecad.deviation.nominal import nominal_of
+from bladecad.deviation.skin import search
 from bladecad.errors import GeometryError, ToleranceError
 from bladecad.surface.blade import normals
 from bladecad.surface.loft import SIDES
 from bladecad.surface.triangulate import triangulate
-from bladecad.surface.volume import volume
+from bladecad.surface.volume import ruled, volume
 from tests.cam.blades import good, tube, waisted
 from tests.surface.test_shapes import cone, lens
 
@@ -99,6 +103,41 @@ def test_a_blade_thinner_than_twice_the_offset_is_refused_though_it_bends_gently
     assert offset_loft(waisted(), -0.5).error < 5e-4
     with pytest.raises(GeometryError, match=r"suction side at .* t = 0.500.* room for 0.6 mm"):
         offset_loft(waisted(), -0.7)
+
+
+@pytest.mark.parametrize("distance", [0.3, -0.3])
+def test_a_plate_with_cut_off_edges_grows_all_round(distance):
+    """30 x 3 mm with square corners: the faces of the edges get the offset, corners a mitre."""
+    plate = lens(thick=1e-9, taper=0.0, blunt=True, sections=2)
+    found = offset_loft(plate, distance)
+    corners = [[-15.0 - distance, 1.5 + distance], [15.0 + distance, 1.5 + distance]]
+    for u in (0, -1):
+        np.testing.assert_allclose(found.suction.poles[u, [0, -1], :2], corners, atol=1e-6)
+    assert volume(found.suction, found.pressure) == pytest.approx(
+        40.0 * (30.0 + 2 * distance) * (3.0 + 2 * distance), rel=1e-6
+    )
+
+
+@pytest.mark.parametrize("distance", [0.3, -0.3])
+def test_faces_of_cut_off_edges_of_a_twisted_blade_are_at_the_distance_too(distance):
+    blade = varied(lens(blunt=True), Variant(untwist=15.0))
+    found = offset_loft(blade, distance)
+    assert found.error < 1e-3
+    face, u = ruled(found.suction, found.pressure, 1, -1), np.linspace(0.1, 0.9, 9)
+    points = face(u, np.linspace(0.25, 0.75, 5)).reshape(-1, 3)
+    away = search(nominal_of(blade).sides, points).distance
+    np.testing.assert_allclose(away, distance, atol=1e-3)
+
+
+def test_a_face_at_an_acute_angle_is_refused():
+    """Sheared by 2 to 1 the faces of the edges stand at 27 degrees to the sides."""
+    blade, shear = lens(thick=1e-9, taper=0.0, blunt=True), np.eye(3)
+    shear[1, 0] = 2.0
+    sides = [
+        replace(s, coefficients=s.coefficients @ shear) for s in (blade.suction, blade.pressure)
+    ]
+    with pytest.raises(GeometryError, match="acute"):
+        offset_loft(replace(blade, suction=sides[0], pressure=sides[1]), 0.3)
 
 
 def test_creases_are_refused():
