@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any, Final, Protocol, final
 
 import cadquery as cq
@@ -19,8 +20,11 @@ from OCP.TopTools import TopTools_IndexedDataMapOfShapeListOfShape
 from bladecad.arrays import Array, Vector
 from bladecad.brep.kernel import kernel
 from bladecad.brep.names import HUB, TIP
+from bladecad.surface.zones import Zone
 
 PLACES: Final = 401  # along an edge
+BOTH: Final = (0.5 - 1e-12, 0.5 + 1e-12)  # sides of an edge line in the middle of a face
+NONE: Final[Mapping[str, Zone]] = MappingProxyType({})
 CORNER: Final = 1.0  # degrees; at more the faces are not meant to meet smoothly
 
 
@@ -41,10 +45,10 @@ class Body(Protocol):
 @final
 @dataclass(frozen=True)
 class Joint:
-    """An edge along which two faces of a blade meet, or a closed face meets itself.
+    """A line along which two faces of a blade meet, or one face runs round an edge.
 
-    faces  : their names
-    edge   : "leading", "trailing", or "seam" where a closed face meets itself
+    faces  : their names, twice the same where it is one
+    edge   : "leading", "trailing", or "seam" where a closed face begins and ends
     length : mm
     gap    : largest distance between the two faces at equal places of the edge, mm
     angle  : largest angle between their normals, G1, degrees
@@ -66,13 +70,15 @@ class Joint:
         return self.angle <= CORNER
 
 
-def joints(body: Body) -> tuple[Joint, ...]:
-    """Measure every edge along the span where two faces of the sides meet.
+def joints(body: Body, zones: Mapping[str, Zone] = NONE) -> tuple[Joint, ...]:
+    """Measure every line along the span where two faces of the sides meet, or one runs round.
 
     Parameters
     ----------
     body : Solid or CadFile
         Edges of HUB and TIP, and of the faces of blunt edges, are corners by design and left out.
+    zones : mapping
+        Of the solid: the edge lines inside its faces are measured too, from both sides.
 
     Notes
     -----
@@ -91,6 +97,8 @@ def joints(body: Body) -> tuple[Joint, ...]:
             met = [name for face in beside for name in names if names[name].isSame(face)]
             if len(met) == 2:
                 found.append(_measured(edge, (met[0], met[1]), names))
+        found += [_inside(name, zone, names[name]) for name, zone in zones.items()
+                  if len(zone.stretches) > 1]  # fmt: skip
         return tuple(sorted(found, key=lambda joint: (joint.edge, joint.faces)))
 
 
@@ -109,9 +117,21 @@ def _measured(edge: cq.Edge, met: tuple[str, str], names: Mapping[str, cq.Face])
     places = np.linspace(first, last, PLACES)
     other = TopoDS.Edge_s(edge.wrapped.Reversed()) if met[0] == met[1] else edge.wrapped
     sides = [
-        _looked_at(wrapped, names[name], places)
+        _looked_at(names[name], _places_of(wrapped, names[name], places))
         for wrapped, name in zip((edge.wrapped, other), met, strict=True)
     ]
+    return _compared(met, _which(met, float(sides[0]["t"].mean())), sides)
+
+
+def _inside(name: str, zone: Zone, face: cq.Face) -> Joint:
+    """The edge line a face runs round, at t = 1/2, seen from just before and just behind it."""
+    u = np.linspace(0.0, 1.0, PLACES)
+    sides = [_looked_at(face, np.stack([u, np.full(PLACES, t)], axis=1)) for t in BOTH]
+    edge = "leading" if zone.stretches[0].last < 0.5 else "trailing"
+    return _compared((name, name), edge, sides)
+
+
+def _compared(met: tuple[str, str], edge: str, sides: Sequence[Mapping[str, Array]]) -> Joint:
     X, n = (np.stack([side[key] for side in sides]) for key in ("X", "n"))
     tau = np.gradient(X[0], axis=0)
     across = np.cross(n[0], tau / np.linalg.norm(tau, axis=1, keepdims=True))
@@ -119,7 +139,7 @@ def _measured(edge: cq.Edge, met: tuple[str, str], names: Mapping[str, cq.Face])
     angle = np.arctan2(np.linalg.norm(np.cross(*n), axis=1), np.einsum("ix,ix->i", *n))
     return Joint(
         met,
-        _which(met, float(sides[0]["t"].mean())),
+        edge,
         float(np.linalg.norm(np.diff(X[0], axis=0), axis=1).sum()),
         float(np.linalg.norm(X[1] - X[0], axis=1).max()),
         float(np.degrees(angle.max())),
@@ -128,17 +148,21 @@ def _measured(edge: cq.Edge, met: tuple[str, str], names: Mapping[str, cq.Face])
     )
 
 
-def _looked_at(edge: Any, face: cq.Face, places: Vector) -> dict[str, Array]:
-    """Places along an edge as one of its faces sees them: t, X, n outward, and derivatives."""
-    surface = BRep_Tool.Surface_s(face.wrapped)
+def _places_of(edge: Any, face: cq.Face, places: Vector) -> Array:
+    """Parameters u and t of a face at some places of its edge, (k, 2)."""
     curve = BRep_Tool.CurveOnSurface_s(edge, face.wrapped, 0.0, 1.0)
-    at = [curve.Value(place) for place in places.tolist()]
-    D = np.array([_derivatives(surface, place.X(), place.Y()) for place in at])
+    return np.array([[(at := curve.Value(place)).X(), at.Y()] for place in places.tolist()])
+
+
+def _looked_at(face: cq.Face, places: Array) -> dict[str, Array]:
+    """Places (u, t) as a face sees them: t, X, n outward, and derivatives."""
+    surface = BRep_Tool.Surface_s(face.wrapped)
+    D = np.array([_derivatives(surface, u, t) for u, t in places.tolist()])
     n = np.cross(D[:, 1], D[:, 2])
     n /= np.linalg.norm(n, axis=1, keepdims=True)
     if face.wrapped.Orientation() == TopAbs_Orientation.TopAbs_REVERSED:
         n = -n
-    return {"t": np.array([place.Y() for place in at]), "X": D[:, 0], "n": n, "D": D}
+    return {"t": places[:, 1], "X": D[:, 0], "n": n, "D": D}
 
 
 def _derivatives(surface: Any, u: float, t: float) -> list[list[float]]:

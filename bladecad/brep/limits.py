@@ -22,8 +22,8 @@ class Limits:
     gap    : edges closer than this are sewn; faces share their pole rows, so it only has to
         cover rounding, and it is the finest that CAD programs agree on
     edge   : the largest tolerance an edge may end with; the kernel starts at 1e-7
-    smooth : poles beside a round edge may be moved so far that a face runs through it C2; a tenth
-        of a micron again, most lofts need a picometre
+    smooth : poles beside a round edge may be moved so far that a face runs through it C2, else it
+        stays C1; a tenth of a micron again, most lofts need a picometre
     blunt  : a cut-off edge thinner than this is neither sharp nor a face
     fold   : sides may lie in each other this deep; on a blunted nose they run side by side
     volume : kernel against quadrature; the kernel integrates to 1e-9, Gauss points to rounding, and

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from bladecad.export.step import Schema
 
 G1: Final = 0.1  # degrees; faces that meet at a round edge are held to it
-SMOOTH: Final = 0.2  # of the tolerance, for making the sides meet C2; the loft keeps to 0.8 of it
+SMOOTH: Final = 0.1  # of the tolerance, for making sides meet C2; the loft keeps to 0.8 of it
 FOLD: Final = 0.01  # mm; sides may lie in each other as deep as the usual fit is exact
 
 
@@ -116,7 +116,7 @@ def cad_blade(
         limits=Limits(fold=FOLD, smooth=SMOOTH * settings.tolerance),
         faces=settings.faces,
     )
-    _check_smooth(joints(solid), made)
+    _check_smooth(joints(solid, solid.zones), made)
     return CadBlade(settings, made, lofted, solid)
 
 
@@ -140,7 +140,7 @@ def export_cad(
 
     progress("file")
     written = write_cad(blade.solid, path, name=name, schema=schema)
-    return CadExport(written, _error(blade, written), joints(written.file))
+    return CadExport(written, _error(blade, written), joints(written.file, blade.solid.zones))
 
 
 def _lofted(surface: BladeSurface, settings: CadSettings, progress: Progress) -> Loft:

@@ -49,7 +49,7 @@ class Division:
     """The sides, and the zones that cover them without a gap or an overlap.
 
     suction, pressure : SplinePatch
-        Where a zone runs round an edge, poles beside it moved so that it does so C2.
+        Where a zone runs round an edge, poles beside it moved so that it does so smoothly.
     zones : tuple of Zone
     moved : float
         No point of the sides moved further, mm.
@@ -88,12 +88,13 @@ def divide(
         patch from the trailing edge round the leading edge and back; where the leading edge is
         blunt or sharp, from there round the trailing edge.
     allowed : float
-        mm; poles beside a round edge may be moved so far that a patch runs through it C2.
+        mm; poles beside a round edge may be moved so far that a patch runs through it C2, or C1
+        where the sides have one tangent and curvature there, but not one X_tt, as offsets have.
 
     Raises
     ------
     GeometryError
-        If sides that meet without a corner do not meet C2 to `allowed`, or if no single patch
+        If sides that meet without a corner do not meet C1 to `allowed`, or if no single patch
         covers both sides.
     """
     kinds = edge_kind(suction, pressure, 0), edge_kind(suction, pressure, -1)
@@ -145,18 +146,18 @@ def _whole(name: SideName, patch: SplinePatch) -> Zone:
 def _meeting(
     suction: SplinePatch, pressure: SplinePatch, kinds: Sequence[EdgeKind], allowed: float
 ) -> tuple[SplinePatch, SplinePatch, float]:
-    """Make the sides meet C2 at their round edges; tell how far that moved them."""
+    """Make the sides meet smoothly at their round edges; tell how far that moved them."""
     moved = {"leading": 0.0, "trailing": 0.0}
     if kinds[0] == "round":
-        back, pressure, moved["leading"] = matched(turned_round(suction), pressure)
+        back, pressure, moved["leading"] = matched(turned_round(suction), pressure, allowed=allowed)
         suction = turned_round(back)
     if kinds[1] == "round":
-        suction, back, moved["trailing"] = matched(suction, turned_round(pressure))
+        suction, back, moved["trailing"] = matched(suction, turned_round(pressure), allowed=allowed)
         pressure = turned_round(back)
     edge = max(moved, key=lambda name: moved[name])
     if moved[edge] > allowed:
         raise GeometryError(
-            f"the sides meet at the {edge} edge, but not C2: a face through it is off by "
+            f"the sides meet at the {edge} edge, but not C1: a face through it is off by "
             f"{moved[edge]:.3g} mm, {allowed:g} mm are allowed; ask for --faces 2"
         )
     return suction, pressure, moved[edge]

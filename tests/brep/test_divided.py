@@ -15,7 +15,6 @@ from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace, BRepBuilderAPI_Sewing
 from bladecad.brep.astray import astray
 from bladecad.brep.faces import spline_face
 from bladecad.brep.joints import Joint, joints
-from bladecad.brep.limits import Limits
 from bladecad.brep.names import (
     AIRFOIL,
     HUB,
@@ -26,7 +25,6 @@ from bladecad.brep.names import (
     TRAILING_EDGE,
 )
 from bladecad.brep.solid import Solid, build_solid
-from bladecad.errors import GeometryError
 from bladecad.surface.patch import SplinePatch
 from bladecad.surface.zones import Faces
 from tests.brep.blades import Ends, blade, volume
@@ -181,17 +179,25 @@ def test_a_gap_is_measured() -> None:
     assert joint.length == pytest.approx(9.0)
 
 
-def test_sides_that_are_not_c2_are_refused_a_face_round_the_edge() -> None:
+def test_a_face_round_an_edge_that_is_not_c2_tells_the_jump_inside_it() -> None:
     suction, pressure = blade()
     poles = np.array(pressure.poles)
     poles[:, 2] += 0.02 * (poles[:, 3] - poles[:, 2])
     bent = SplinePatch(poles, pressure.knots_u, pressure.knots_t, 3, 3)
     inside = volume(suction, bent)
-    assert build_solid(suction, bent, volume=inside).witnesses.valid
-    with pytest.raises(GeometryError, match="leading edge, but not C2"):
-        build_solid(suction, bent, volume=inside, faces=4)
-    loose = build_solid(
-        suction, bent, volume=inside, faces=4, limits=Limits(smooth=0.1, volume=1e-3)
-    )
-    sides = {"suction": suction, "pressure": bent}
-    assert 1e-4 < astray(loose, loose.zones, sides) < 0.1
+    two, four = (build_solid(suction, bent, volume=inside, faces=n) for n in (2, 4))
+    there = _at("leading", two)
+    (here,) = (j for j in joints(four, four.zones) if j.faces == (LEADING_EDGE, LEADING_EDGE))
+    assert here.edge == "leading"
+    assert there.jump > 0.01
+    assert here.jump == pytest.approx(there.jump, rel=1e-3)
+    assert here.angle < 0.01
+    assert astray(four, four.zones, {"suction": suction, "pressure": bent}) < 1e-4
+
+
+def test_edge_lines_inside_faces_are_measured_too() -> None:
+    for faces, lines in ((2, 2), (4, 6), (1, 2)):
+        found = joints(built(faces, "planar"), built(faces, "planar").zones)
+        assert len(found) == lines
+        assert max(joint.angle for joint in found) < 1e-4
+    assert {joint.edge for joint in found} == {"leading", "seam"}
