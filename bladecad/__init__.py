@@ -18,11 +18,18 @@ if TYPE_CHECKING:
     from bladecad.brep.reread import read_step as read_step
     from bladecad.brep.solid import Solid as Solid
     from bladecad.brep.solid import build_solid as build_solid
+    from bladecad.cam.offset import offset_loft as offset_loft
+    from bladecad.cam.sheet import CamSheet as CamSheet
+    from bladecad.cam.sheet import cam_sheet as cam_sheet
+    from bladecad.cam.variant import Variant as Variant
+    from bladecad.cam.variant import varied as varied
     from bladecad.curves.sides import BladeLines as BladeLines
     from bladecad.curves.sides import split_sides as split_sides
     from bladecad.data.read import read_sections as read_sections
     from bladecad.data.read_scan import read_scan as read_scan
     from bladecad.data.scan import Scan as Scan
+    from bladecad.data.sections import Machine as Machine
+    from bladecad.data.sections import Row as Row
     from bladecad.data.sections import Section as Section
     from bladecad.data.sections import Sections as Sections
     from bladecad.data.synthetic import synthetic_blade as synthetic_blade
@@ -54,6 +61,9 @@ if TYPE_CHECKING:
     from bladecad.fit.blade import BladeFit as BladeFit
     from bladecad.fit.blade import Order as Order
     from bladecad.fit.order import fit_blade as fit_blade
+    from bladecad.meshes.blade import mesh_blade as mesh_blade
+    from bladecad.meshes.named import NamedMesh as NamedMesh
+    from bladecad.meshes.sizing import Sizing as Sizing
     from bladecad.pipeline import Build as Build
     from bladecad.pipeline import Check as Check
     from bladecad.pipeline import CheckSettings as CheckSettings
@@ -62,16 +72,29 @@ if TYPE_CHECKING:
     from bladecad.pipeline import build as build
     from bladecad.pipeline import check as check
     from bladecad.pipeline import load_nominal as load_nominal
+    from bladecad.pipeline.blade_file import BladeFile as BladeFile
+    from bladecad.pipeline.blade_file import load_blade as load_blade
+    from bladecad.pipeline.cad import CadSettings as CadSettings
+    from bladecad.pipeline.cad import cad_blade as cad_blade
+    from bladecad.pipeline.cad import export_cad as export_cad
+    from bladecad.pipeline.cam import write_cam_sheet as write_cam_sheet
+    from bladecad.pipeline.mesh import write_blade_mesh as write_blade_mesh
+    from bladecad.pipeline.passage import passage_of as passage_of
+    from bladecad.pipeline.passage import write_passage as write_passage
+    from bladecad.pipeline.passage_settings import PassageSettings as PassageSettings
     from bladecad.pipeline.scan import build_scan as build_scan
     from bladecad.pipeline.scan_build import ScanBuild as ScanBuild
     from bladecad.pipeline.scan_settings import ScanSettings as ScanSettings
+    from bladecad.pipeline.sections_of import CutSettings as CutSettings
+    from bladecad.pipeline.sections_of import sections_of as sections_of
+    from bladecad.pipeline.write_cut import write_cut as write_cut
     from bladecad.scans.finding.airfoil import Airfoil as Airfoil
     from bladecad.scans.finding.airfoil import find_airfoil as find_airfoil
-    from bladecad.scans.slicing.slices import slice_airfoil as slice_airfoil
-    from bladecad.scans.judging.support import Gap as Gap
-    from bladecad.scans.judging.support import find_gaps as find_gaps
     from bladecad.scans.fitting.whole import WholeFit as WholeFit
     from bladecad.scans.fitting.whole import fit_scan as fit_scan
+    from bladecad.scans.judging.support import Gap as Gap
+    from bladecad.scans.judging.support import find_gaps as find_gaps
+    from bladecad.scans.slicing.slices import slice_airfoil as slice_airfoil
     from bladecad.surface.blade import BladeSurface as BladeSurface
     from bladecad.surface.loft import Loft as Loft
     from bladecad.surface.loft import loft as loft
@@ -87,14 +110,18 @@ __version__ = "0.1.0"
 __all__ = [
     "Airfoil",
     "Band",
+    "BladeFile",
     "BladeFit",
     "BladeLines",
     "BladeMesh",
     "BladeSurface",
     "BladecadError",
     "Build",
+    "CadSettings",
+    "CamSheet",
     "Check",
     "CheckSettings",
+    "CutSettings",
     "DataError",
     "Deviation",
     "ExportError",
@@ -104,27 +131,36 @@ __all__ = [
     "GeometryError",
     "Inspection",
     "Loft",
+    "Machine",
+    "NamedMesh",
     "Nominal",
     "NominalSettings",
     "Order",
+    "PassageSettings",
     "Registration",
+    "Row",
     "Scan",
     "ScanBuild",
     "ScanSettings",
     "Section",
     "Sections",
     "Settings",
+    "Sizing",
     "Solid",
     "ToleranceError",
     "Tolerances",
+    "Variant",
     "WholeFit",
     "__version__",
     "build",
     "build_scan",
     "build_solid",
+    "cad_blade",
+    "cam_sheet",
     "check",
     "describe",
     "export_blade",
+    "export_cad",
     "export_check",
     "find_airfoil",
     "find_gaps",
@@ -132,10 +168,14 @@ __all__ = [
     "fit_scan",
     "inspect",
     "load",
+    "load_blade",
     "load_nominal",
     "loft",
     "measure",
+    "mesh_blade",
     "nominal_of",
+    "offset_loft",
+    "passage_of",
     "project",
     "read_scan",
     "read_sections",
@@ -143,12 +183,18 @@ __all__ = [
     "read_tolerances",
     "register",
     "save",
+    "sections_of",
     "slice_airfoil",
     "split_sides",
     "synthetic_blade",
     "triangulate",
     "uniform",
+    "varied",
     "volume",
+    "write_blade_mesh",
+    "write_cam_sheet",
+    "write_cut",
+    "write_passage",
     "write_sections",
     "write_step",
     "write_stl",
@@ -157,11 +203,14 @@ __all__ = [
 _HOMES = {
     "brep.reread": ("read_step",),
     "brep.solid": ("Solid", "build_solid"),
+    "cam.offset": ("offset_loft",),
+    "cam.sheet": ("CamSheet", "cam_sheet"),
+    "cam.variant": ("Variant", "varied"),
     "curves.sides": ("BladeLines", "split_sides"),
     "data.read": ("read_sections",),
     "data.read_scan": ("read_scan",),
     "data.scan": ("Scan",),
-    "data.sections": ("Section", "Sections"),
+    "data.sections": ("Machine", "Row", "Section", "Sections"),
     "data.synthetic": ("synthetic_blade",),
     "data.tolerance_file": ("read_tolerances",),
     "data.write": ("write_sections",),
@@ -187,6 +236,9 @@ _HOMES = {
     "export.stl": ("write_stl",),
     "fit.blade": ("BladeFit", "Order"),
     "fit.order": ("fit_blade",),
+    "meshes.blade": ("mesh_blade",),
+    "meshes.named": ("NamedMesh",),
+    "meshes.sizing": ("Sizing",),
     "pipeline": (
         "Build",
         "Check",
@@ -197,13 +249,21 @@ _HOMES = {
         "check",
         "load_nominal",
     ),
+    "pipeline.blade_file": ("BladeFile", "load_blade"),
+    "pipeline.cad": ("CadSettings", "cad_blade", "export_cad"),
+    "pipeline.cam": ("write_cam_sheet",),
+    "pipeline.mesh": ("write_blade_mesh",),
+    "pipeline.passage": ("passage_of", "write_passage"),
+    "pipeline.passage_settings": ("PassageSettings",),
     "pipeline.scan": ("build_scan",),
     "pipeline.scan_build": ("ScanBuild",),
     "pipeline.scan_settings": ("ScanSettings",),
-    "scans.airfoil": ("Airfoil", "find_airfoil"),
-    "scans.slicing": ("slice_airfoil",),
-    "scans.support": ("Gap", "find_gaps"),
-    "scans.whole": ("WholeFit", "fit_scan"),
+    "pipeline.sections_of": ("CutSettings", "sections_of"),
+    "pipeline.write_cut": ("write_cut",),
+    "scans.finding.airfoil": ("Airfoil", "find_airfoil"),
+    "scans.fitting.whole": ("WholeFit", "fit_scan"),
+    "scans.judging.support": ("Gap", "find_gaps"),
+    "scans.slicing.slices": ("slice_airfoil",),
     "surface.blade": ("BladeSurface",),
     "surface.loft": ("Loft", "loft"),
     "surface.triangulate": ("BladeMesh", "triangulate"),
