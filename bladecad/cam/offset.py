@@ -10,6 +10,7 @@ from bladecad.cam.fitted import fitted
 from bladecad.cam.mitred import mitred
 from bladecad.cam.offset_error import distance_error
 from bladecad.cam.room import check_room
+from bladecad.deviation.nominal import nominal_of
 from bladecad.errors import GeometryError
 from bladecad.surface.blade import BladeSurface
 from bladecad.surface.loft import Loft, first_breaks
@@ -48,12 +49,13 @@ def offset_loft(surface: BladeSurface, distance: float, *, tolerance: float = 5e
     O(u,t) = S + d n, with O_t and O_tt in closed form at the edges: where S is continuous in
     curvature across an edge, so is O (do Carmo, section 3-5, exercise 11: k -> k / (1 + d k)).
     """
-    check_room(surface, distance)
+    skin = nominal_of(surface).sides
+    check_room(surface, distance, skin)
     formula = mitred(surface, distance)
     round_edges = (surface.le == "round", surface.te == "round")
     u = np.unique(surface.knots[0])
     patches = fitted(formula, u, first_breaks(surface), tolerance=tolerance, joined=round_edges)
-    error = distance_error(formula, patches)
+    error = distance_error(formula, patches, skin)
     allowed = tolerance * (FACES if formula.cut_off else 1.0)
     if error > allowed:
         raise GeometryError(

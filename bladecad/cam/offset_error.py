@@ -8,7 +8,6 @@ import numpy as np
 
 from bladecad.arrays import Points, Vector
 from bladecad.cam.mitred import Mitred
-from bladecad.deviation.nominal import nominal_of
 from bladecad.deviation.skin import Skin, search, skin_of
 from bladecad.deviation.squares import cut, joined
 from bladecad.surface.blade import BladeSurface, SideName
@@ -21,11 +20,11 @@ U, T = np.linspace(0.0, 1.0, 61), graded(401)
 ACROSS: Final = np.linspace(0.0, 1.0, 5)
 
 
-def distance_error(formula: Mitred, patches: tuple[SplinePatch, SplinePatch]) -> float:
+def distance_error(formula: Mitred, patches: tuple[SplinePatch, SplinePatch], skin: Skin) -> float:
     """Largest | distance - |d| |, from the offset to the blade and from the blade to it, mm.
 
     The corner of a cut-off edge has a mitre: places past it, of which no place of the other is at
-    the distance, are left out. They lie on the outer one of the two.
+    the distance, are left out. They lie on the outer one of the two. `skin` is that of the blade.
     """
     surface, d = formula.parallel.surface, formula.parallel.distance
     faces = [ruled(*patches, 1, end) for end in _cut_off(surface)]
@@ -35,7 +34,7 @@ def distance_error(formula: Mitred, patches: tuple[SplinePatch, SplinePatch]) ->
         there += [patch(U, ACROSS).reshape(-1, 3) for patch in faces]
     else:
         back += [_on_face(surface, end) for end in _cut_off(surface)]
-    found = [(nominal_of(surface).sides, there), (_skin((*patches, *faces)), back)]
+    found = [(skin, there), (_skin((*patches, *faces)), back)]
     return max(_largest(skin, np.concatenate(points), abs(d)) for skin, points in found)
 
 

@@ -7,8 +7,7 @@ from typing import Final
 import numpy as np
 
 from bladecad.cam.places import Places, places
-from bladecad.deviation.nominal import nominal_of
-from bladecad.deviation.skin import search
+from bladecad.deviation.skin import Skin, search
 from bladecad.errors import GeometryError, ToleranceError
 from bladecad.surface.blade import BladeSurface
 
@@ -16,7 +15,7 @@ MOST: Final = 0.9  # of a radius: what is left of it must still be a surface
 NEARER: Final = 1e-6  # mm, by which a place that has another foot is nearer
 
 
-def check_room(surface: BladeSurface, distance: float) -> None:
+def check_room(surface: BladeSurface, distance: float, skin: Skin) -> None:
     """Raise unless the parallel surface at some distance is one that does not cross itself.
 
     Where it bends more than the offset allows, and where the offset of one place comes nearer to
@@ -27,6 +26,8 @@ def check_room(surface: BladeSurface, distance: float) -> None:
     surface : BladeSurface
     distance : float
         mm, positive out of the metal.
+    skin : Skin
+        Sides of the blade.
 
     Raises
     ------
@@ -40,7 +41,7 @@ def check_room(surface: BladeSurface, distance: float) -> None:
     _check_smooth(surface)
     found = places(surface)
     _check_bend(found, distance)
-    _check_others(surface, found, distance)
+    _check_others(skin, found, distance)
 
 
 def _check_smooth(surface: BladeSurface) -> None:
@@ -70,9 +71,8 @@ def _check_bend(found: Places, distance: float) -> None:
         )
 
 
-def _check_others(surface: BladeSurface, found: Places, distance: float) -> None:
+def _check_others(skin: Skin, found: Places, distance: float) -> None:
     """A parallel place must have its own foot for the nearest of all."""
-    skin = nominal_of(surface).sides
     off = search(skin, found.points + distance * found.directions)
     on_side = np.isin(skin.squares.face[off.item], (0, 1))  # faces of cut-off edges end the sides
     nearer = np.where(on_side, abs(distance) - np.abs(off.distance), 0.0)

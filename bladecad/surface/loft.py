@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from scipy.linalg import lstsq
+from scipy.linalg import solve_triangular
 
 from bladecad.arrays import Array, Mask, Vector
 from bladecad.errors import GeometryError
@@ -95,7 +95,8 @@ def _lofted(surface: BladeSurface, breaks: Vector) -> tuple[SplinePatch, SplineP
     knots = clamped(breaks, DEGREE)
     samples, weights = gauss(breaks, 5)
     on_suction, on_pressure = (
-        curve_poles(surface.side(s)(samples), _ends(surface, s), knots, samples, weights) for s in SIDES
+        curve_poles(surface.side(s)(samples), _ends(surface, s), knots, samples, weights)
+        for s in SIDES
     )
     for column, kind in ((0, surface.le), (-1, surface.te)):
         if kind != "blunt":
@@ -114,7 +115,9 @@ def _ends(surface: BladeSurface, name: SideName) -> Array:
     return np.array([[side(np.array([end]), r)[:, 0] for r in range(ENDS)] for end in (0.0, 1.0)])
 
 
-def curve_poles(curves: Array, ends: Array, knots: Vector, samples: Vector, weights: Vector) -> Array:
+def curve_poles(
+    curves: Array, ends: Array, knots: Vector, samples: Vector, weights: Vector
+) -> Array:
     """Poles of the section curves, (m, n, 3)."""
     M = basis(knots, DEGREE, samples)
     n = M.shape[1]
@@ -126,7 +129,8 @@ def curve_poles(curves: Array, ends: Array, knots: Vector, samples: Vector, weig
     known[-ENDS:] = np.linalg.solve(last, ends[1].reshape(ENDS, -1))
     rest = curves.transpose(1, 0, 2).reshape(len(samples), -1) - M @ known
     w = np.sqrt(weights)[:, None]
-    known[ENDS:-ENDS] = lstsq(w * M[:, ENDS:-ENDS], w * rest)[0]
+    Q, R = np.linalg.qr(w * M[:, ENDS:-ENDS])
+    known[ENDS:-ENDS] = solve_triangular(R, Q.T @ (w * rest))
     return known.reshape(n, m, 3).transpose(1, 0, 2)
 
 
