@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Collection
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final, TypeAlias, final
@@ -38,10 +39,13 @@ class Features:
         seal(self, points=(None, 3))
 
 
-def features(mesh: NamedMesh, *, sharp: float = SHARP) -> Features:
+def features(
+    mesh: NamedMesh, *, sharp: float = SHARP, only: Collection[str] | None = None
+) -> Features:
     """Find the edges where patches meet, where triangles turn by more than `sharp` degrees, or end.
 
-    The same that `surfaceFeatureExtract` finds with an includedAngle of 180 - sharp.
+    The same that `surfaceFeatureExtract` finds with an includedAngle of 180 - sharp. With `only`,
+    no more than those on the border of patches so named.
     """
     edges, first, second = _edges(mesh)
     patch = np.repeat(np.arange(len(mesh.patches)), [len(k) for k in mesh.patches.values()])
@@ -49,6 +53,9 @@ def features(mesh: NamedMesh, *, sharp: float = SHARP) -> Features:
     between = (second >= 0) & (patch[first] != patch[second])
     turned = np.einsum("kx,kx->k", n[first], n[second]) < np.cos(np.radians(sharp))
     found = between | turned | (second < 0)
+    if only is not None:
+        named = np.array([name in only for name in mesh.patches])
+        found &= between & (named[patch[first]] | named[patch[second]])
     used, numbers = np.unique(edges[found], return_inverse=True)
     return Features(mesh.vertices[used], numbers.reshape(-1, 2), between[found])
 

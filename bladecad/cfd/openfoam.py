@@ -38,19 +38,21 @@ MOST_LEVELS: Final = 9
 class Cells:
     """How large the cells of the volume mesh are, mm.
 
-    surface : on the patches; no larger, and no smaller than half of it
-    edge    : on leading and trailing edge, and along feature edges
+    surface : on the walls and openings of a passage; no larger, and no smaller than half of it
+    blade   : on the sides, hub and tip of the blade
+    edge    : on leading and trailing edge; round a blade along all its feature edges
     base    : of the box
     around  : how far the box of an outer flow reaches beyond the blade
     """
 
     surface: float
+    blade: float
     edge: float
     base: float
     around: float
 
     def __post_init__(self) -> None:
-        values = self.surface, self.edge, self.base, self.around
+        values = self.surface, self.blade, self.edge, self.base, self.around
         if not all(math.isfinite(x) and x > 0.0 for x in values):
             raise ToleranceError(f"cells of {values} mm are asked; all must be above 0")
         if self.level(self.edge) > MOST_LEVELS:
@@ -118,6 +120,7 @@ def write_case(
         raise ExportError(f"{folder} cannot be written: {error.strerror}") from error
     write_stl_solids(mesh, surface / f"{name}.stl")
     write_emesh(features(mesh), surface / f"{name}.eMesh")
+    write_emesh(features(mesh, only=EDGES), surface / f"{name}_edges.eMesh")
 
 
 def _words(mesh: NamedMesh, cells: Cells, name: str, axis: Axis) -> Mapping[str, Any]:
@@ -139,7 +142,8 @@ def _words(mesh: NamedMesh, cells: Cells, name: str, axis: Axis) -> Mapping[str,
         "box": _box_patches(axis, inner),
         "inside": MM * place,
         "patches": [_patch(patch, cells) for patch in mesh.patches],
-        "feature_level": cells.level(cells.edge),
+        "feature_level": cells.level(cells.surface if inner else cells.edge),
+        "edge_level": cells.level(cells.edge),
         "least_volume": 1e-3 * smallest**3,
         "least_tet": 1e-9 * smallest,
     }
@@ -173,10 +177,13 @@ def _box_patches(axis: Axis, inner: bool) -> list[tuple[str, str, list[Face]]]:
 
 
 def _patch(name: str, cells: Cells) -> Mapping[str, Any]:
-    fine = name in EDGES
+    on_blade = name.startswith("blade_")
+    size = cells.edge if name in EDGES else cells.blade if on_blade else cells.surface
     kind = "patch" if name in OPEN else "wall"
-    group = "blade" if name.startswith("blade_") else "openings" if name in OPEN else "endwalls"
+    group = "blade" if on_blade else "openings" if name in OPEN else "endwalls"
     return {
-        "name": name, "level": cells.level(cells.edge if fine else cells.surface),
-        "kind": kind, "group": group,
-    }  # fmt: skip
+        "name": name,
+        "level": cells.level(size),
+        "kind": kind,
+        "group": group,
+    }

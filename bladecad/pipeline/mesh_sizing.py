@@ -15,6 +15,7 @@ A_CHORD: Final = 40.0  # steps, where no size is asked
 BASE: Final = 4.0  # cells of the box, in sizes
 AROUND: Final = 12.0  # reach of the box beyond the blade, in sizes
 RADII: Final = 2.0  # cells on a round edge, in its least radius
+THICKNESS: Final = 0.5  # cells on the blade, in the greatest thickness of its thinnest section
 SMALLEST: Final = 1.0 / 16.0  # cells on an edge, in sizes, where none are asked
 
 
@@ -36,14 +37,16 @@ def sizing_for(
 def cells_for(surface: BladeSurface, sizing: Sizing) -> Cells:
     """Cells of a volume mesh to go with a sizing.
 
-    On an edge the size asked for it; where none is, twice its least radius, but no less than a
-    sixteenth of the size; of a blunt edge half its least width; of a sharp one a quarter of the
-    size.
+    On the blade no more than half its thickness, where that is least along the span, so that both
+    sides are told apart. On an edge the size asked for it; where none is, twice its least radius,
+    but no less than a sixteenth of the size; of a blunt edge half its least width; of a sharp one
+    a quarter of the size.
     """
     size = sizing.size
     le, te = _on_edge(surface, 0.0, surface.le, size), _on_edge(surface, 1.0, surface.te, size)
     edge = sizing.edge or max(min(le, te), SMALLEST * size)
-    return Cells(size, min(edge, size), BASE * size, AROUND * size)
+    blade = min(size, THICKNESS * _thinnest(surface))
+    return Cells(size, blade, min(edge, blade), BASE * size, AROUND * size)
 
 
 def _on_edge(surface: BladeSurface, t: float, kind: EdgeKind, size: float) -> float:
@@ -55,3 +58,10 @@ def _on_edge(surface: BladeSurface, t: float, kind: EdgeKind, size: float) -> fl
         return 0.25 * size
     across = surface("suction", u, np.array([t])) - surface("pressure", u, np.array([t]))
     return 0.5 * float(np.linalg.norm(across, axis=2).min())
+
+
+def _thinnest(surface: BladeSurface) -> float:
+    """Greatest thickness at equal t of the section where that is least, mm."""
+    u, t = np.linspace(0.0, 1.0, 21), np.linspace(0.1, 0.9, 33)
+    across = np.linalg.norm(surface("suction", u, t) - surface("pressure", u, t), axis=2)
+    return float(across.max(axis=1).min())

@@ -68,3 +68,13 @@ def test_inside_is_inside():
     place = a_place_inside(box, 0.1, "right")
     assert place[0] == pytest.approx(0.9)
     assert winding(box, place) == pytest.approx(1)
+
+
+def test_the_edges_alone_are_the_lines_round_their_zones():
+    mesh = mesh_blade(blade(), Sizing(4.0, 0.1)).mesh
+    every, edges = features(mesh), features(mesh, only=("blade_le",))
+    known = {tuple(sorted(map(tuple, pair))) for pair in every.points[every.edges].tolist()}
+    some = {tuple(sorted(map(tuple, pair))) for pair in edges.points[edges.edges].tolist()}
+    assert some < known
+    on_edge = {tuple(x) for x in mesh.vertices[np.unique(mesh.patches["blade_le"])].tolist()}
+    assert all(a in on_edge and b in on_edge for a, b in some)

@@ -16,9 +16,10 @@ from bladecad.meshes.sizing import Sizing
 from tests.cfd.test_features import CORNERS, QUADS
 from tests.meshes.blades import blade
 
-CELLS = Cells(surface=3.0, edge=0.8, base=12.0, around=30.0)
+CELLS = Cells(surface=6.0, blade=3.0, edge=0.8, base=12.0, around=30.0)
 FILES = {
     "Allrun", "constant/triSurface/blade.stl", "constant/triSurface/blade.eMesh",
+    "constant/triSurface/blade_edges.eMesh",
     *(f"system/{name}" for name in (
         "blockMeshDict", "controlDict", "fvSchemes", "fvSolution", "meshQualityDict",
         "snappyHexMeshDict", "surfaceFeatureExtractDict")),
@@ -69,7 +70,7 @@ def test_an_outer_flow_is_meshed_round_the_blade(tmp_path: Path):
 def test_an_inner_flow_is_meshed_inside_and_its_openings_are_patches(tmp_path: Path):
     mesh = channel()
     write_case(mesh, tmp_path, CELLS, name="passage")
-    assert files(tmp_path) == {f.replace("/blade.", "/passage.") for f in FILES}
+    assert files(tmp_path) == {f.replace("Surface/blade", "Surface/passage") for f in FILES}
     assert winding(mesh, inside(tmp_path)) == pytest.approx(1)
     kinds = {name: kind for name, (_, kind) in levels(tmp_path).items()}
     openings = {name for name, kind in kinds.items() if kind == "patch"}
@@ -105,11 +106,11 @@ def test_allrun_is_a_shell_script_that_runs(tmp_path: Path):
 def test_what_makes_no_case_is_refused(tmp_path: Path):
     mesh = metal()
     with pytest.raises(ToleranceError, match="all must be above 0"):
-        Cells(0.0, 1.0, 1.0, 1.0)
+        Cells(0.0, 1.0, 1.0, 1.0, 1.0)
     with pytest.raises(ToleranceError, match="take 14 refinements, 9 at most"):
-        Cells(3.0, 0.001, 12.0, 30.0)
+        Cells(3.0, 3.0, 0.001, 12.0, 30.0)
     with pytest.raises(ToleranceError, match="ask for a larger --size"):
-        write_case(mesh, tmp_path, Cells(0.2, 0.1, 0.4, 30.0))
+        write_case(mesh, tmp_path, Cells(0.2, 0.2, 0.1, 0.4, 30.0))
     holed = NamedMesh(mesh.vertices, {n: k for n, k in mesh.patches.items() if n != "blade_tip"})
     with pytest.raises(GeometryError, match="open edges; a case needs it closed"):
         write_case(holed, tmp_path, CELLS)

@@ -74,7 +74,7 @@ def test_a_folder_in_use_is_kept_and_force_replaces_the_mesh_in_it(model: Path, 
     assert (tmp_path / "system" / "blockMeshDict").is_file()
     assert run(*case, "--format", "openfoam", "--force", "--name", "fan7")[0] == 0
     surfaces = {p.name for p in (tmp_path / "constant" / "triSurface").iterdir()}
-    assert surfaces == {"fan7.stl", "fan7.eMesh"}
+    assert surfaces == {"fan7.stl", "fan7.eMesh", "fan7_edges.eMesh"}
     assert (tmp_path / "mine.txt").read_text() == "mine"
 
 
@@ -88,7 +88,7 @@ def test_a_folder_in_use_is_kept_and_force_replaces_the_mesh_in_it(model: Path, 
         (["--format", "stl", "--edge-size", "-0.1"], "edge size of -0.1 mm"),
         (["--format", "stl", "--growth", "1"], "growth of 1 is asked; it must be above 1"),
         (["--format", "stl", "--size", "0.005"], "ask for a larger one"),
-        (["--format", "openfoam", "--edge-size", "0.0005", "--size", "9"], "refinements, 9 at most"),
+        (["--format", "openfoam", "--edge-size", "5e-4", "--size", "9"], "refinements, 9 at most"),
         (["--name", "../x", "--format", "stl"], "is no name for a file"),
         ([], "--format"),
     ],
