@@ -20,18 +20,17 @@ from OCP.BRepPrimAPI import BRepPrimAPI_MakeRevol
 from OCP.gp import gp_Ax1, gp_Dir, gp_Pnt, gp_Trsf
 from OCP.TopTools import TopTools_ListOfShape
 
-from bladecad.arrays import Points
 from bladecad.brep.kernel import kernel
-from bladecad.brep.passage_shape import PassageShape
+from bladecad.brep.passage_shape import Line, PassageShape
 from bladecad.brep.solid import build_solid
-from bladecad.brep.through import curve_through, kernel_point, surface_through
+from bladecad.brep.through import curve_of, kernel_point, surface_through
 from bladecad.brep.witnesses import volume
 from bladecad.errors import GeometryError
 from bladecad.surface.volume import volume as quadrature
 
 Named: TypeAlias = list[tuple[str, Any]]
 
-VOLUME: Final = 1e-6  # relative, kernel against quadrature
+VOLUME: Final = 1e-4  # relative, kernel against quadrature; walls printed coarsely are smoothed
 EDGE: Final = 1e-2  # mm, the largest tolerance of an edge that two faces were cut to
 SIDES: Final = {
     "SUCTION_SIDE": "BLADE_SUCTION",
@@ -50,12 +49,14 @@ class PassageSolid:
     faces          : INLET, OUTLET, HUB, SHROUD, PERIODIC_1, PERIODIC_2, BLADE_SUCTION,
                      BLADE_PRESSURE; BLADE_LE, BLADE_TE of blunt edges; BLADE_TIP, BLADE_HUB
                      before gaps
-    volume_error   : relative, kernel against quadrature
+    volume         : mm^3, by the kernel
+    volume_error   : relative, against the quadrature
     edge_tolerance : mm, the largest
     """
 
     shape: cq.Solid
     faces: Mapping[str, cq.Face]
+    volume: float
     volume_error: float
     edge_tolerance: float
 
@@ -114,13 +115,13 @@ def _between_faces(shape: PassageShape) -> tuple[Any, Named]:
     return parts[0], _followed(split, walls) + periodic
 
 
-def _sector(shape: PassageShape, hub: Points, shroud: Points) -> tuple[Any, Named]:
+def _sector(shape: PassageShape, hub: Line, shroud: Line) -> tuple[Any, Named]:
     """Turn the outline of the channel round the axis; the faces that its four lines sweep."""
     lines = [
-        BRepBuilderAPI_MakeEdge(curve_through(hub)).Edge(),
-        BRepBuilderAPI_MakeEdge(kernel_point(hub[-1]), kernel_point(shroud[-1])).Edge(),
-        BRepBuilderAPI_MakeEdge(curve_through(shroud)).Edge(),
-        BRepBuilderAPI_MakeEdge(kernel_point(shroud[0]), kernel_point(hub[0])).Edge(),
+        BRepBuilderAPI_MakeEdge(curve_of(hub)).Edge(),
+        BRepBuilderAPI_MakeEdge(kernel_point(hub.poles[-1]), kernel_point(shroud.poles[-1])).Edge(),
+        BRepBuilderAPI_MakeEdge(curve_of(shroud)).Edge(),
+        BRepBuilderAPI_MakeEdge(kernel_point(shroud.poles[0]), kernel_point(hub.poles[0])).Edge(),
     ]
     wire, edges = BRepBuilderAPI_MakeWire(), []
     for line in lines:
@@ -156,14 +157,15 @@ def _believed(cut: cq.Shape, named: Named, shape: PassageShape) -> PassageSolid:
         if name is None:
             raise GeometryError(f"a {face.geomType()} face of the passage has no name")
         faces[name if name not in faces else f"{name}_{len(faces)}"] = face
-    error = abs(volume(solids[0]) / shape.volume - 1.0)
+    found = volume(solids[0])
+    error = abs(found / shape.volume - 1.0)
     edge = max(BRep_Tool.Tolerance_s(one.wrapped) for one in solids[0].Edges())
     if error > VOLUME or edge > EDGE:
         raise GeometryError(
             f"the passage as a solid is {error:.2g} (relative) off the quadrature, {VOLUME:g} "
             f"allowed, its largest edge tolerance {edge:.2g} mm, {EDGE:g} mm allowed"
         )
-    return PassageSolid(solids[0], faces, error, edge)
+    return PassageSolid(solids[0], faces, found, error, edge)
 
 
 def _has(part: cq.Shape, face: Any) -> bool:

@@ -1,26 +1,35 @@
-"""Splines of the kernel through points, where their exact shape is not ours to keep."""
+"""Curves of the kernel from ours, and a surface through points whose shape is free."""
 
 from __future__ import annotations
 
 from typing import Any, Final
 
+import numpy as np
+from OCP.Geom import Geom_BSplineCurve
 from OCP.GeomAbs import GeomAbs_Shape
-from OCP.GeomAPI import GeomAPI_PointsToBSpline, GeomAPI_PointsToBSplineSurface
+from OCP.GeomAPI import GeomAPI_PointsToBSplineSurface
 from OCP.gp import gp_Pnt
 from OCP.TColgp import TColgp_Array1OfPnt, TColgp_Array2OfPnt
+from OCP.TColStd import TColStd_Array1OfInteger, TColStd_Array1OfReal
 
-from bladecad.arrays import Array, Points
+from bladecad.arrays import Array
+from bladecad.brep.passage_shape import Line
 
-CURVE: Final = 1e-4  # mm
 SURFACE: Final = 1e-2  # mm
 
 
-def curve_through(points: Points) -> Any:
-    """A cubic C2 spline that follows points to a tenth of a micron."""
-    array = TColgp_Array1OfPnt(1, len(points))
-    for i, point in enumerate(points, start=1):
-        array.SetValue(i, kernel_point(point))
-    return GeomAPI_PointsToBSpline(array, 3, 3, GeomAbs_Shape.GeomAbs_C2, CURVE).Curve()
+def curve_of(line: Line) -> Geom_BSplineCurve:
+    """The kernel's own curve."""
+    poles = TColgp_Array1OfPnt(1, len(line.poles))
+    for i, pole in enumerate(line.poles, start=1):
+        poles.SetValue(i, kernel_point(pole))
+    values, counts = np.unique(line.knots, return_counts=True)
+    knots = TColStd_Array1OfReal(1, len(values))
+    times = TColStd_Array1OfInteger(1, len(values))
+    for i, (value, count) in enumerate(zip(values.tolist(), counts.tolist(), strict=True), start=1):
+        knots.SetValue(i, value)
+        times.SetValue(i, count)
+    return Geom_BSplineCurve(poles, knots, times, line.degree)
 
 
 def surface_through(grid: Array) -> Any:

@@ -10,7 +10,7 @@ from bladecad.brep.reread import read_step
 from bladecad.errors import ExportError
 from bladecad.export.step import write_step
 
-VOLUME = 1e-6  # relative, of the file against the quadrature
+VOLUME = 1e-6  # relative, of the file against its solid
 
 
 def write_passage_step(
@@ -33,7 +33,7 @@ def write_passage_step(
         "" if again.valid else "the kernel's check fails",
         "" if set(again.faces) == set(solid.faces) else f"faces named {sorted(again.faces)}",
     ]
-    error = abs(again.volume / shape.volume - 1.0)
+    error = abs(again.volume / solid.volume - 1.0)
     against += [f"volume {error:.2g} (relative) off, {VOLUME:g} allowed"] if error > VOLUME else []
     if any(against):
         raise ExportError("STEP read back is another passage: " + "; ".join(filter(None, against)))

@@ -5,14 +5,15 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
+from scipy.interpolate import make_splprep
 
-from bladecad.arrays import Array, Points, Vector
-from bladecad.brep.passage_shape import PassageShape
+from bladecad.arrays import Array, Vector
+from bladecad.brep.passage_shape import Line, PassageShape
 from bladecad.passage.channel import SIDES, Channel
 from bladecad.passage.cylinder import from_cylinder
 from bladecad.passage.domain import Passage
 from bladecad.passage.periodic import Camber
-from bladecad.passage.trim import Trimmed, WallName
+from bladecad.passage.trim import WALLS, Trimmed, WallName
 from bladecad.splines import basis
 from bladecad.surface.loft import loft
 from bladecad.surface.patch import SplinePatch
@@ -20,6 +21,9 @@ from bladecad.surface.patch import SplinePatch
 BEYOND: Final = 0.01  # of the span, how far the blade reaches beyond both walls
 OUTSIDE: Final = 0.02, 0.04  # of sigma and v, how far the periodic face reaches beyond the channel
 ALONG, ACROSS = 64, 16  # points of the periodic face
+DENSE: Final = 801  # places on a wall
+SMOOTHED: Final = 1e-4, 1e-3, 1e-2, 0.1  # mm, the first with which a wall has few enough knots
+MOST_KNOTS: Final = 120
 WIDER: Final = 0.15  # of the pitch, free in the sector on both sides
 
 
@@ -28,13 +32,18 @@ def shape_of(passage: Passage, *, tolerance: float = 1e-3) -> PassageShape:
     blade, channel, camber = passage.blade, passage.channel, passage.camber
     angles = _angles(camber)
     start = float(angles.min()) - (0.5 + WIDER) * passage.pitch
-    hub, shroud = (_line(blade, channel, name, start, 0.0) for name in ("hub", "shroud"))
+    lines = {
+        (name, gap): _line(blade, channel, name, start, gap)
+        for name in WALLS
+        for gap in {0.0, blade.gap(name)}
+    }
     suction, pressure = _sides(blade, tolerance)
     return PassageShape(
-        hub=hub,
-        shroud=shroud,
-        hub_end=_line(blade, channel, "hub", start, blade.hub_gap) if blade.hub_gap else None,
-        tip_end=_line(blade, channel, "shroud", start, blade.tip_gap) if blade.tip_gap else None,
+        hub=lines["hub", 0.0][0],
+        shroud=lines["shroud", 0.0][0],
+        hub_end=lines["hub", blade.hub_gap][0] if blade.hub_gap else None,
+        tip_end=lines["shroud", blade.tip_gap][0] if blade.tip_gap else None,
+        wall_error=max(error for _, error in lines.values()),
         periodic=_periodic(camber, blade.axis, passage.pitch),
         suction=suction,
         pressure=pressure,
@@ -71,15 +80,21 @@ def _sides(blade: Trimmed, tolerance: float) -> tuple[SplinePatch, SplinePatch]:
     return longer(made.suction, low, high), longer(made.pressure, low, high)
 
 
-def _line(blade: Trimmed, channel: Channel, name: WallName, theta: float, gap: float) -> Points:
-    """Points along a wall, or a gap off it, inlet to outlet, those of its data among them."""
-    wall = blade.wall(name)
+def _line(
+    blade: Trimmed, channel: Channel, name: WallName, theta: float, gap: float
+) -> tuple[Line, float]:
+    """A wall, or a line a gap off it, inlet to outlet, and how far they are smoothed off."""
     ends = channel.along(name, np.array([0.0, 3.0]))
-    s = np.linspace(ends[0], ends[1], 121)
-    inside = wall.nodes[(wall.nodes > ends[0]) & (wall.nodes < ends[1])]
-    s = np.unique(np.concatenate([s, inside]))
-    zr = wall.above(s, gap)
-    return from_cylinder(np.column_stack([zr, np.full(len(s), theta)]), blade.axis)
+    s = np.linspace(ends[0], ends[1], DENSE)
+    exact = blade.wall(name).above(s, gap)
+    for tolerance in SMOOTHED:
+        curve = make_splprep(exact.T, u=s, s=DENSE * tolerance**2)[0]
+        if len(curve.t) <= MOST_KNOTS:
+            break
+    error = float(np.linalg.norm(curve(s).T - exact, axis=1).max())
+    zr = curve.c
+    poles = from_cylinder(np.column_stack([zr, np.full(len(zr), theta)]), blade.axis)
+    return Line(poles, curve.t, curve.k), error
 
 
 def _periodic(camber: Camber, axis: int, pitch: float) -> Array:

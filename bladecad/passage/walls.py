@@ -16,6 +16,7 @@ from bladecad.splines import basis, not_a_knot
 
 DENSE: Final = 24  # places in every span of the spline
 NEWTON: Final = 12  # steps to the nearest place
+SETTLED: Final = 1e-9  # mm; the next Newton step is its square
 SAME: Final = 1e-6  # mm; points this close are one
 
 
@@ -91,7 +92,10 @@ class Wall:
             slope = np.einsum("kx,kx->k", T, T)
             bend = slope + np.einsum("kx,kx->k", away, N)
             bend = np.where(bend > 0.2 * slope, bend, slope)
-            s = np.clip(s - np.einsum("kx,kx->k", away, T) / bend, 0.0, self.nodes[-1])
+            step = np.einsum("kx,kx->k", away, T) / bend
+            s = np.clip(s - step, 0.0, self.nodes[-1])
+            if np.abs(step).max(initial=0.0) < SETTLED:
+                break
         return s
 
     def height(self, zr: Array) -> tuple[Vector, Vector]:

@@ -114,8 +114,10 @@ def _write_step(passage: Passage, stage: Path, name: str) -> dict[str, Any]:
     from bladecad.passage.outlines import shape_of
 
     file = stage / f"{name}_passage.step"
-    solid = write_passage_step(shape_of(passage), file, name=f"{name} passage")
+    shape = shape_of(passage)
+    solid = write_passage_step(shape, file, name=f"{name} passage")
     return {
+        "solid_wall_error_mm": shape.wall_error,
         "solid_volume_error": solid.volume_error,
         "edge_tolerance_mm": solid.edge_tolerance,
         "faces": list(solid.faces),
