@@ -15,7 +15,7 @@ from bladecad.surface.loft import SIDES, graded
 from bladecad.surface.patch import SplinePatch
 from bladecad.surface.volume import ruled
 
-BETWEEN: Final = np.linspace(0.0, 1.0, 4)[:-1]
+BETWEEN: Final = np.linspace(0.0, 1.0, 6)[:-1]
 U, T = np.linspace(0.0, 1.0, 61), graded(401)
 ACROSS: Final = np.linspace(0.0, 1.0, 5)
 
@@ -44,7 +44,7 @@ def _cut_off(surface: BladeSurface) -> list[int]:
 
 
 def _on_patch(formula: Mitred, name: SideName, patch: SplinePatch) -> Points:
-    """Three by three points in every cell of the knots that face the side, not its mitre."""
+    """Five by five points in every cell of the knots that face the side, not its mitre."""
     u, t = _inside(patch.knots_u), _inside(patch.knots_t)
     s0, s1 = (s[:, None] for s in formula.limits(name, u))
     s = s0 + (s1 - s0) * t
