@@ -19,6 +19,7 @@ from bladecad.export.files import export_blade
 from bladecad.pipeline.scan import build_scan, sections_of_scan
 from bladecad.pipeline.scan_build import ScanBuild
 from bladecad.pipeline.scan_settings import ScanSettings
+from tests.deviation.scanned import blade as cut_off
 from tests.scans.truth import AIRFOIL, SyntheticScan, nominal_for, scan_of, truth_surface
 
 SIGMA = 0.01
@@ -225,3 +226,18 @@ def test_a_coarse_mesh_is_told_by_its_triangles(tmp_path):
     away = project(nominal_of(blade.surface), truth.at("suction", *where)).distance
     assert 0.0 < flat < 0.02
     assert np.abs(away).max() < 1.5 * flat
+
+
+def test_a_cut_off_trailing_edge_is_followed(tmp_path):
+    """A slanted cut more than a millimetre wide; its corners may be rounded."""
+    truth, sigma, rng = cut_off("blunt"), 0.003, np.random.default_rng(0)
+    sides = [truth.at(side, *rng.random((2, 20_000))) for side in ("suction", "pressure")]
+    u, part, end = rng.random(2_000), rng.random((2_000, 1)), np.ones(2_000)
+    cut = (1 - part) * truth.at("suction", u, end) + part * truth.at("pressure", u, end)
+    points = np.concatenate([*sides, cut])
+    np.savetxt(tmp_path / "cut.xyz", rng.permutation(points + rng.normal(0.0, sigma, points.shape)))
+    blade = build_scan(tmp_path / "cut.xyz", ScanSettings(tolerance=0.02))
+    assert blade.within, blade.reasons
+    assert blade.solid.witnesses.valid
+    feet = project(nominal_of(blade.surface), cut)
+    assert np.quantile(np.abs(feet.distance[~feet.rim]), 0.95) < 3.0 * sigma

@@ -28,7 +28,8 @@ def check_sides(suction: SplinePatch, pressure: SplinePatch, limits: Limits) -> 
     along = (suction(u, t, 0, 1) + pressure(u, t, 0, 1)) / 2
     normal = np.cross(along, across)
     _check_area(normal, u, t)
-    _check_crossing(normal, np.linalg.norm(across, axis=-1), _steps(along, t), u, t, limits)
+    loops = np.concatenate([suction(u, t), pressure(u, t)[:, ::-1]], axis=1)
+    _check_crossing(normal, across, _steps(along, t), loops, u, t, limits)
 
 
 def is_round(suction: SplinePatch, pressure: SplinePatch, column: int) -> bool:
@@ -73,12 +74,25 @@ def _check_area(normal: Array, u: Vector, t: Vector) -> None:
 
 
 def _check_crossing(
-    normal: Array, gap: Array, steps: Array, u: Vector, t: Vector, limits: Limits
+    normal: Array,
+    across: Array,
+    steps: Array,
+    loops: Array,
+    u: Vector,
+    t: Vector,
+    limits: Limits,
 ) -> None:
-    """Follow the section normal, (dS/dt + dP/dt)/2 x (P - S): it turns over where sides cross."""
+    """Follow the section normal, (dS/dt + dP/dt)/2 x (P - S): it turns over where sides cross.
+
+    It turns over on a slanted, cut-off edge too, where one side runs along the cut and the other
+    is still on its way; so a section that it accuses must also meet itself.
+    """
     side = _turns(normal, axis=1)
     main = np.sign(np.sum(side * np.linalg.norm(normal, axis=-1), axis=1))
-    depth = _depth(side * main[:, None] < 0, gap, steps)
+    depth = _depth(side * main[:, None] < 0, np.linalg.norm(across, axis=-1), steps)
+    for i in np.flatnonzero(depth.max(axis=1) > limits.fold):
+        if not _meets_itself(loops[i]):
+            depth[i] = 0.0
     if depth.max() > limits.fold:
         i, j = np.unravel_index(depth.argmax(), depth.shape)
         raise GeometryError(
@@ -92,6 +106,15 @@ def _check_crossing(
             f"suction and pressure side change places near u = {u[np.argmin(turned)]:.3f}; "
             "look for a swapped or flipped section"
         )
+
+
+def _meets_itself(loop: Array) -> bool:
+    """Whether a loop, seen across its own plane, crosses or touches itself."""
+    from shapely import LinearRing
+
+    middle = loop.mean(axis=0)
+    plane = np.linalg.svd(loop - middle, full_matrices=False)[2][:2]
+    return not LinearRing((loop - middle) @ plane.T).is_simple
 
 
 def check_fold(cap: SplinePatch, end: str, limits: Limits) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Final, TypeAlias
 
 import numpy as np
-import shapely  # type: ignore[import-untyped]
+import shapely
 from scipy.spatial import Delaunay, cKDTree
 
 from bladecad.arrays import Array, Mask, Vector

@@ -216,6 +216,23 @@ def test_crossing_sides_are_refused_with_the_place() -> None:
         build_solid(suction, with_poles(pressure, poles), volume=1.0)
 
 
+def test_a_slanted_hollow_cut_is_no_crossing() -> None:
+    """At equal t one side is already on the cut, running back, while the other is still coming."""
+    t = np.array([0.0, 0.0, 0.3, 0.8, 0.9, 1.0, 1.0])
+    suction = np.array([[0, 0], [5, 1.5], [10, 1.0], [10.2, 0.5], [10.2, 0]])
+    pressure = np.array([[0, 0], [5, -1.5], [10.3, -1.05], [10.6, -1.0], [10.2, 0]])
+    ends = np.array([0.0, 0.0, 1.0, 1.0])
+    sides = [
+        SplinePatch(np.stack([np.insert(line, 2, z, axis=1) for z in (0.0, 5.0)]), ends, t, 1, 1)
+        for line in (suction, pressure)
+    ]
+    loop = np.concatenate([suction, pressure[-2:0:-1]])
+    x, y = loop.T
+    area = 0.5 * abs(x @ np.roll(y, -1) - y @ np.roll(x, -1))
+    solid = build_solid(sides[0], sides[1], volume=5.0 * area)
+    assert solid.witnesses.valid
+
+
 def test_a_swapped_section_is_refused() -> None:
     suction, pressure = blade()
     first, second = np.array(suction.poles), np.array(pressure.poles)
