@@ -54,7 +54,7 @@ def standing(blade: BladeFile, **said) -> BladeFile:
 
 
 def metal(gap: float = 0.0, steps: int = 4000) -> float:
-    """Volume of the prism between two cylinders: sqrt(R^2 - y^2) - sqrt(r^2 - y^2) over its section.
+    """Volume between both cylinders: sqrt(R^2 - y^2) - sqrt(r^2 - y^2) over the ellipse.
 
     Gauss-Chebyshev in y of the second kind, exact but for rounding.
     """

@@ -27,12 +27,17 @@ def test_another_program_finds_it_closed_and_as_large(rotor37_passage):
     assert abs(other.volume / rotor37_passage.volume - 1.0) < 1e-4
 
 
-def test_its_stl_has_every_patch_and_periodic_faces_that_turn_onto_each_other(
-    rotor37_passage, tmp_path
-):
+def test_its_stl_has_every_patch_and_is_closed_as_printed(rotor37_passage, tmp_path):
     write_stl_solids(rotor37_passage.mesh, tmp_path / "passage.stl")
     solids = read_stl_solids(tmp_path / "passage.stl")
     assert set(solids) == set(rotor37_passage.mesh.patches)
+    corners = np.concatenate([k.reshape(-1, k.shape[-1]) for k in solids.values()])
+    _, ids = np.unique(corners, axis=0, return_inverse=True)
+    k = ids.reshape(-1, 3)
+    edges = np.concatenate([k[:, [i, (i + 1) % 3]] for i in range(3)])
+    there = {tuple(edge) for edge in edges.tolist()}
+    assert len(there) == len(edges)
+    assert all((b, a) in there for a, b in there)
 
 
 def test_metal_cut_off_by_both_walls_is_nearly_the_whole_blade(rotor37, rotor37_passage):
