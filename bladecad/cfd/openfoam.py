@@ -40,7 +40,7 @@ class Cells:
 
     surface : on the walls and openings of a passage; no larger, and no smaller than half of it
     blade   : on the sides, hub and tip of the blade
-    edge    : on leading and trailing edge; round a blade along all its feature edges
+    edge    : on leading and trailing edge, and along the borders of all patches of the blade
     base    : of the box
     around  : how far the box of an outer flow reaches beyond the blade
     """
@@ -120,7 +120,8 @@ def write_case(
         raise ExportError(f"{folder} cannot be written: {error.strerror}") from error
     write_stl_solids(mesh, surface / f"{name}.stl")
     write_emesh(features(mesh), surface / f"{name}.eMesh")
-    write_emesh(features(mesh, only=EDGES), surface / f"{name}_edges.eMesh")
+    own = [patch for patch in mesh.patches if patch.startswith("blade_")]
+    write_emesh(features(mesh, only=own), surface / f"{name}_blade.eMesh")
 
 
 def _words(mesh: NamedMesh, cells: Cells, name: str, axis: Axis) -> Mapping[str, Any]:
@@ -142,7 +143,7 @@ def _words(mesh: NamedMesh, cells: Cells, name: str, axis: Axis) -> Mapping[str,
         "box": _box_patches(axis, inner),
         "inside": MM * place,
         "patches": [_patch(patch, cells) for patch in mesh.patches],
-        "feature_level": cells.level(cells.surface if inner else cells.edge),
+        "feature_level": cells.level(cells.surface),
         "edge_level": cells.level(cells.edge),
         "least_volume": 1e-3 * smallest**3,
         "least_tet": 1e-9 * smallest,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Final
 
 import numpy as np
@@ -12,11 +13,11 @@ from bladecad.meshes.sizing import Sizing
 from bladecad.surface.blade import BladeSurface, EdgeKind
 
 A_CHORD: Final = 40.0  # steps, where no size is asked
-BASE: Final = 4.0  # cells of the box, in sizes
+BASE: Final = 4.0  # cells of the box, in sizes, at most
 AROUND: Final = 12.0  # reach of the box beyond the blade, in sizes
 RADII: Final = 2.0  # cells on a round edge, in its least radius
 THICKNESS: Final = 0.5  # cells on the blade, in the greatest thickness of its thinnest section
-SMALLEST: Final = 1.0 / 16.0  # cells on an edge, in sizes, where none are asked
+SMALLEST: Final = 1.0 / 32.0  # cells on an edge, in sizes, where none are asked
 
 
 def sizing_for(
@@ -39,14 +40,16 @@ def cells_for(surface: BladeSurface, sizing: Sizing) -> Cells:
 
     On the blade no more than half its thickness, where that is least along the span, so that both
     sides are told apart. On an edge the size asked for it; where none is, twice its least radius,
-    but no less than a sixteenth of the size; of a blunt edge half its least width; of a sharp one
-    a quarter of the size.
+    but no less than a thirty-second of the size; of a blunt edge half its least width; of a sharp
+    one a quarter of the size.
     """
     size = sizing.size
     le, te = _on_edge(surface, 0.0, surface.le, size), _on_edge(surface, 1.0, surface.te, size)
     edge = sizing.edge or max(min(le, te), SMALLEST * size)
     blade = min(size, THICKNESS * _thinnest(surface))
-    return Cells(size, blade, min(edge, blade), BASE * size, AROUND * size)
+    edge = min(edge, blade)
+    base = edge * 2.0 ** math.floor(math.log2(BASE * size / edge))  # halved to just that edge
+    return Cells(size, blade, edge, base, AROUND * size)
 
 
 def _on_edge(surface: BladeSurface, t: float, kind: EdgeKind, size: float) -> float:

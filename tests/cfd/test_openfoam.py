@@ -19,7 +19,7 @@ from tests.meshes.blades import blade
 CELLS = Cells(surface=6.0, blade=3.0, edge=0.8, base=12.0, around=30.0)
 FILES = {
     "Allrun", "constant/triSurface/blade.stl", "constant/triSurface/blade.eMesh",
-    "constant/triSurface/blade_edges.eMesh",
+    "constant/triSurface/blade_blade.eMesh",
     *(f"system/{name}" for name in (
         "blockMeshDict", "controlDict", "fvSchemes", "fvSolution", "meshQualityDict",
         "snappyHexMeshDict", "surfaceFeatureExtractDict")),

@@ -74,7 +74,7 @@ def test_a_folder_in_use_is_kept_and_force_replaces_the_mesh_in_it(model: Path, 
     assert (tmp_path / "system" / "blockMeshDict").is_file()
     assert run(*case, "--format", "openfoam", "--force", "--name", "fan7")[0] == 0
     surfaces = {p.name for p in (tmp_path / "constant" / "triSurface").iterdir()}
-    assert surfaces == {"fan7.stl", "fan7.eMesh", "fan7_edges.eMesh"}
+    assert surfaces == {"fan7.stl", "fan7.eMesh", "fan7_blade.eMesh"}
     assert (tmp_path / "mine.txt").read_text() == "mine"
 
 
