@@ -126,22 +126,22 @@ def _continued(
     curve += (1.0 - share) * (far - curve[0]) + share * (nose[0] - curve[-1])
     length = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1)))
     first = float(np.linalg.norm(nose[1] - nose[0]))
-    size = float(end.plane.largest(curve).min())
-    places = length[-1] * (1.0 - _graded(length[-1], first, size, end.growth)[::-1])
+    from_edge = length[-1] - length[::-1]
+    sizes = end.plane.largest(curve)[::-1]
+    places = length[-1] - _graded(from_edge, first, sizes, end.growth)[::-1]
     xy = np.column_stack([np.interp(places, length, curve[:, k]) for k in (0, 1)])
     inner = vertices.add(end.plane.up(xy[1:-1]))
     return np.concatenate([[start], inner, [side[edge]]])
 
 
-def _graded(length: float, first: float, size: float, growth: float) -> Vector:
-    """Places from 0 to 1, the first step about `first` mm, growing to the size."""
-    steps = [min(first, size)]
-    while sum(steps) < length:
-        steps.append(min(steps[-1] * growth, size))
-    if len(steps) < 2:
-        steps = [0.5 * length, 0.5 * length]
-    places = np.append(0.0, np.cumsum(steps))
-    return np.asarray(places / places[-1])
+def _graded(length: Vector, first: float, sizes: Vector, growth: float) -> Vector:
+    """Places from 0 to the end, the first step about `first` mm, growing to the sizes there."""
+    places, step = [0.0], min(first, 0.5 * float(length[-1]))
+    while places[-1] < length[-1]:
+        step = min(step, float(np.interp(places[-1], length, sizes)))
+        places.append(places[-1] + step)
+        step *= growth
+    return np.asarray(places, dtype=np.float64) * float(length[-1] / places[-1])
 
 
 def _filled(end: EndWall, vertices: Vertices, line: Triangles) -> Triangles:
