@@ -6,12 +6,12 @@ import logging
 import re
 import subprocess
 import sys
-import time
 from pathlib import Path
 from typing import get_args
 
 import numpy as np
 import pytest
+import typer
 from typer.testing import CliRunner
 
 import bladecad
@@ -25,7 +25,7 @@ from bladecad.fit.blade import ModelName, Order, SpectrumKind
 from bladecad.surface.blade import Law
 from tests.export.products import FIXTURES, GOOD
 
-COMMANDS = ("build", "sections", "check", "fit", "info", "convert", "paper")
+COMMANDS = tuple(typer.main.get_command(app).commands)
 CHOICES = [
     (options.ModelChoice, ModelName),
     (options.SpectrumChoice, SpectrumKind),
@@ -49,19 +49,15 @@ def test_choices_are_those_of_the_library(asked, known):
 
 
 @pytest.mark.parametrize("command", ["", *COMMANDS])
-def test_help_is_quick_and_loads_nothing_heavy(command: str):
+def test_help_loads_nothing_heavy(command: str):
+    """So that it answers at once; `make bench` holds it to half a second."""
     code = (
         "import sys\nfrom contextlib import suppress\nfrom bladecad.cli import main\n"
         f"sys.argv = ['bladecad', *{command.split()!r}, '--help']\n"
         "with suppress(SystemExit):\n    main()\n"
         "assert not {'numpy', 'scipy', 'cadquery', 'trimesh', 'matplotlib'} & sys.modules.keys()"
     )
-    took = []
-    for _ in range(2):
-        start = time.perf_counter()
-        subprocess.run([sys.executable, "-c", code], capture_output=True, check=True)
-        took.append(time.perf_counter() - start)
-    assert min(took) < 1.0  # 0.25 s when the machine is free; `make bench` holds it to 0.5
+    subprocess.run([sys.executable, "-c", code], capture_output=True, check=True)
 
 
 def test_the_version_is_told():
