@@ -144,15 +144,28 @@ def _cap_face(
 ) -> cq.Face:
     row = 0 if end == HUB else -1
     if plane[row]:
-        return plane_face(list(around.values()), row)
+        return plane_face(_outline(division, around), row)
     section = cap(division.suction, division.pressure, row)
     check_fold(section, end, limits)
     return spline_face(section)
+
+
+def _outline(division: Division, around: Mapping[FaceName, SplinePatch]) -> list[SplinePatch]:
+    """The patches whose rows bound a plane end.
+
+    One line all the way round is divided at the edge: left to itself, the kernel takes as few
+    Gauss points for it as for a short one, and its default volume was a third too large.
+    """
+    if AIRFOIL not in around:
+        return list(around.values())
+    strips = [patch for name, patch in around.items() if name != AIRFOIL]
+    return [division.suction, division.pressure, *strips]
 
 
 def _counts(division: Division, plane: tuple[bool, bool]) -> tuple[int, int, int]:
     """Vertices, edges and faces; on a ruled end a face round an edge has a vertex there."""
     around = len(_around(division))
     turns = sum(len(zone.stretches) - 1 for zone in division.zones)
-    hub, tip = (around if flat else around + turns for flat in plane)
+    alone = len(division.zones) == 1
+    hub, tip = (around if flat and not alone else around + turns for flat in plane)
     return expected_counts(around, hub, tip)

@@ -72,8 +72,7 @@ def test_four_zones_have_the_names_and_counts_they_should(ends: Ends) -> None:
 @pytest.mark.parametrize("ends", ENDS)
 def test_one_face_runs_all_round(ends: Ends) -> None:
     solid = built(1, ends)
-    split = 2 * (ends == "cylinders")
-    assert solid.witnesses.counts == (2 + split, 3 + split, 3)
+    assert solid.witnesses.counts == (4, 5, 3)
     assert set(solid.faces) == {AIRFOIL, HUB, TIP}
     assert BRep_Tool.Surface_s(solid.faces[AIRFOIL].wrapped).IsVClosed()
     assert solid.witnesses.edge_tolerance <= 1e-7
@@ -105,6 +104,13 @@ def test_faces_are_four_sided_untrimmed_and_unbroken(faces: Faces, ends: Ends) -
 
 def _whole_area(surface: object) -> float:
     return float(cq.Face(BRepBuilderAPI_MakeFace(surface, 1e-7).Face()).Area())
+
+
+@pytest.mark.parametrize(("faces", "ends"), [*DIVIDED, (2, "planar"), (2, "cylinders")])
+def test_what_other_programs_take_for_the_volume_is_not_far_off(faces: Faces, ends: Ends) -> None:
+    """They ask the kernel without a precision; one closed line round an end made it 1.4 times."""
+    solid = built(faces, ends)
+    assert solid.shape.Volume() == pytest.approx(solid.witnesses.volume, rel=1e-3)
 
 
 @pytest.mark.parametrize("ends", ENDS)
