@@ -73,6 +73,7 @@ def write_case(
     *,
     name: str = "blade",
     axis: Axis = "z",
+    inside: Vector | None = None,
 ) -> None:
     """Write a case that OpenFOAM meshes as it is.
 
@@ -90,6 +91,8 @@ def write_case(
         Of the STL and of the snapped surface.
     axis : {"x", "y", "z"}
         Along which the box has its inlet and outlet.
+    inside : (3,) float, mm, optional
+        A place in the flow, far from all patches; else one a little behind inlet or box.
 
     Raises
     ------
@@ -103,7 +106,7 @@ def write_case(
     if mesh.open_edges:
         raise GeometryError(f"the surface has {mesh.open_edges} open edges; a case needs it closed")
     folder = Path(folder)
-    words = _words(mesh, cells, name, axis)
+    words = _words(mesh, cells, name, axis, inside)
     templates = Environment(
         loader=PackageLoader("bladecad.cfd", "case"), undefined=StrictUndefined,
         keep_trailing_newline=True, autoescape=False,
@@ -124,13 +127,17 @@ def write_case(
     write_emesh(features(mesh, only=own), surface / f"{name}_blade.eMesh")
 
 
-def _words(mesh: NamedMesh, cells: Cells, name: str, axis: Axis) -> Mapping[str, Any]:
+def _words(
+    mesh: NamedMesh, cells: Cells, name: str, axis: Axis, inside: Vector | None
+) -> Mapping[str, Any]:
     """What the templates say, in metres."""
     inner = "inlet" in mesh.patches
     low, counts = _box(mesh, cells, 0.0 if inner else cells.around)
     size = cells.base * counts
     smallest = MM * cells.base / 2 ** cells.level(cells.edge)
-    place = a_place_inside(mesh, 0.4 * cells.surface) if inner else low + 0.37 * cells.base
+    place = inside
+    if place is None:
+        place = a_place_inside(mesh, 0.4 * cells.surface) if inner else low + 0.37 * cells.base
     if (abs(winding(mesh, place)) > 0.5) != inner:
         raise GeometryError("no place in the flow was found; ask for smaller cells")
     return {

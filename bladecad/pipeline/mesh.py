@@ -116,10 +116,11 @@ def write_mesh(
     *,
     axis: Axis = "z",
     point_data: Mapping[str, Vector] | None = None,
+    inside: Vector | None = None,
 ) -> None:
     """Write any named mesh, of a blade or of a passage, into a folder that exists."""
     if form == "openfoam":
-        write_case(mesh, folder, cells, name=_word(name), axis=axis)
+        write_case(mesh, folder, cells, name=_word(name), axis=axis, inside=inside)
     elif form == "stl":
         from bladecad.cfd.stl_solids import write_stl_solids
 

@@ -100,7 +100,7 @@ def write_passage(
         name = f"{blade.name}_{'row' if row else 'passage'}"
         sizing = _sizing(passage.blade, passage.count, settings)
         cells = cells_for(blade.surface, sizing)
-        write_mesh(mesh, stage, form, name, cells, axis=blade.machine.axis)
+        write_mesh(mesh, stage, form, name, cells, axis=blade.machine.axis, inside=passage.inside)
         found = reached(passage)
         if step:
             found |= _write_step(passage, stage, blade.name)
