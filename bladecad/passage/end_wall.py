@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import final
+from typing import Final, final
 
 import numpy as np
 
@@ -16,6 +16,8 @@ from bladecad.passage.trim import WallName
 from bladecad.passage.vertices import Vertices
 from bladecad.passage.walls import Wall
 from bladecad.surface.ruled import Triangles
+
+DENSE: Final = 201  # places on the camber ahead of the blade, and behind it
 
 
 @final
@@ -113,25 +115,28 @@ def _continued(
     end: EndWall, vertices: Vertices, start: int, side: Triangles, edge: int
 ) -> Triangles:
     """Numbers from the inlet (edge 0) or outlet (edge -1) along the camber to the blade's edge."""
-    X = vertices.points
-    nose = end.plane.down(X[[side[edge], side[1 if edge == 0 else -2]]])
-    far = end.plane.down(X[[start]])[0]
-    station = 1.0 if edge == 0 else 2.0
-    sigma = np.linspace(0.0 if edge == 0 else 3.0, station, 201)
+    points = vertices.points[[start, side[edge], side[1 if edge == 0 else -2]]]
+    far, nose, next_to_it = end.plane.down(points)
+    curve = _between(end, edge, far, nose)
+    length = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1)))
+    first = float(np.linalg.norm(next_to_it - nose))
+    sizes = end.plane.largest(curve)[::-1]
+    back = _graded(length[-1] - length[::-1], first, sizes, end.growth)
+    places = length[-1] - back[::-1]
+    xy = np.column_stack([np.interp(places, length, curve[:, k]) for k in (0, 1)])
+    inner = vertices.add(end.plane.up(xy[1:-1]))
+    return np.concatenate([[start], inner, [side[edge]]])
+
+
+def _between(end: EndWall, edge: int, far: Vector, nose: Vector) -> Array:
+    """The camber ahead of the blade or behind it, in the plane, moved onto its two ends."""
+    sigma = np.linspace(0.0, 1.0, DENSE) if edge == 0 else np.linspace(3.0, 2.0, DENSE)
     v = np.full_like(sigma, 0.0 if end.name == "hub" else 1.0)
     s, _, m = end.plane.wall.table
     along = np.interp(end.camber.channel.along(end.name, sigma), s, m)
     curve = end.plane.radius * np.column_stack([along, end.camber(sigma, v)])
-    share = np.linspace(0.0, 1.0, len(sigma))[:, None]
-    curve += (1.0 - share) * (far - curve[0]) + share * (nose[0] - curve[-1])
-    length = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1)))
-    first = float(np.linalg.norm(nose[1] - nose[0]))
-    from_edge = length[-1] - length[::-1]
-    sizes = end.plane.largest(curve)[::-1]
-    places = length[-1] - _graded(from_edge, first, sizes, end.growth)[::-1]
-    xy = np.column_stack([np.interp(places, length, curve[:, k]) for k in (0, 1)])
-    inner = vertices.add(end.plane.up(xy[1:-1]))
-    return np.concatenate([[start], inner, [side[edge]]])
+    share = np.linspace(0.0, 1.0, DENSE)[:, None]
+    return np.asarray(curve + (1.0 - share) * (far - curve[0]) + share * (nose - curve[-1]))
 
 
 def _graded(length: Vector, first: float, sizes: Vector, growth: float) -> Vector:
