@@ -6,7 +6,8 @@
     faces           arrays become kernel faces
     sew             faces become one closed solid, names kept
     witnesses       why the solid is believed
-    joints          how smoothly its faces meet
+    astray          how far its faces are from the sides they were made of
+    seen, joints    how smoothly its faces meet
     solid           all of it in one verb, `build_solid`
     labels          names, colours and layers of faces
     reread, confirm a CAD file read back, and compared with its solid

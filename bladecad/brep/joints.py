@@ -5,21 +5,21 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, Final, Protocol, final
+from typing import Final, Protocol, final
 
 import cadquery as cq
 import numpy as np
 from OCP.BRep import BRep_Tool
 from OCP.Geom import Geom_BSplineSurface
-from OCP.gp import gp_Pnt, gp_Vec
-from OCP.TopAbs import TopAbs_Orientation, TopAbs_ShapeEnum
+from OCP.TopAbs import TopAbs_ShapeEnum
 from OCP.TopExp import TopExp
 from OCP.TopoDS import TopoDS
 from OCP.TopTools import TopTools_IndexedDataMapOfShapeListOfShape
 
-from bladecad.arrays import Array, Vector
+from bladecad.arrays import Array
 from bladecad.brep.kernel import kernel
 from bladecad.brep.names import HUB, TIP
+from bladecad.brep.seen import look_at, normal_curvature, places_of
 from bladecad.surface.zones import Zone
 
 PLACES: Final = 401  # along an edge
@@ -117,7 +117,7 @@ def _measured(edge: cq.Edge, met: tuple[str, str], names: Mapping[str, cq.Face])
     places = np.linspace(first, last, PLACES)
     other = TopoDS.Edge_s(edge.wrapped.Reversed()) if met[0] == met[1] else edge.wrapped
     sides = [
-        _looked_at(names[name], _places_of(wrapped, names[name], places))
+        look_at(names[name], places_of(wrapped, names[name], places))
         for wrapped, name in zip((edge.wrapped, other), met, strict=True)
     ]
     return _compared(met, _which(met, float(sides[0]["t"].mean())), sides)
@@ -126,7 +126,7 @@ def _measured(edge: cq.Edge, met: tuple[str, str], names: Mapping[str, cq.Face])
 def _inside(name: str, zone: Zone, face: cq.Face) -> Joint:
     """The edge line a face runs round, at t = 1/2, seen from just before and just behind it."""
     u = np.linspace(0.0, 1.0, PLACES)
-    sides = [_looked_at(face, np.stack([u, np.full(PLACES, t)], axis=1)) for t in BOTH]
+    sides = [look_at(face, np.stack([u, np.full(PLACES, t)], axis=1)) for t in BOTH]
     edge = "leading" if zone.stretches[0].last < 0.5 else "trailing"
     return _compared((name, name), edge, sides)
 
@@ -135,7 +135,7 @@ def _compared(met: tuple[str, str], edge: str, sides: Sequence[Mapping[str, Arra
     X, n = (np.stack([side[key] for side in sides]) for key in ("X", "n"))
     tau = np.gradient(X[0], axis=0)
     across = np.cross(n[0], tau / np.linalg.norm(tau, axis=1, keepdims=True))
-    k = np.stack([_normal_curvature(side, across) for side in sides])
+    k = np.stack([normal_curvature(side, across) for side in sides])
     angle = np.arctan2(np.linalg.norm(np.cross(*n), axis=1), np.einsum("ix,ix->i", *n))
     return Joint(
         met,
@@ -145,43 +145,6 @@ def _compared(met: tuple[str, str], edge: str, sides: Sequence[Mapping[str, Arra
         float(np.degrees(angle.max())),
         float(np.abs(k[1] - k[0]).max()),
         float(np.abs(k).max()),
-    )
-
-
-def _places_of(edge: Any, face: cq.Face, places: Vector) -> Array:
-    """Parameters u and t of a face at some places of its edge, (k, 2)."""
-    curve = BRep_Tool.CurveOnSurface_s(edge, face.wrapped, 0.0, 1.0)
-    return np.array([[(at := curve.Value(place)).X(), at.Y()] for place in places.tolist()])
-
-
-def _looked_at(face: cq.Face, places: Array) -> dict[str, Array]:
-    """Places (u, t) as a face sees them: t, X, n outward, and derivatives."""
-    surface = BRep_Tool.Surface_s(face.wrapped)
-    D = np.array([_derivatives(surface, u, t) for u, t in places.tolist()])
-    n = np.cross(D[:, 1], D[:, 2])
-    n /= np.linalg.norm(n, axis=1, keepdims=True)
-    if face.wrapped.Orientation() == TopAbs_Orientation.TopAbs_REVERSED:
-        n = -n
-    return {"t": places[:, 1], "X": D[:, 0], "n": n, "D": D}
-
-
-def _derivatives(surface: Any, u: float, t: float) -> list[list[float]]:
-    """X, X_u, X_t, X_uu, X_tt, X_ut by the kernel."""
-    point, vectors = gp_Pnt(), [gp_Vec() for _ in range(5)]
-    surface.D2(u, t, point, *vectors)
-    return [[v.X(), v.Y(), v.Z()] for v in (point, *vectors)]
-
-
-def _normal_curvature(side: Mapping[str, Array], across: Array) -> Vector:
-    """II(c)/I(c) for the direction c = a X_u + b X_t nearest to `across`."""
-    D, n = side["D"], side["n"]
-    Xu, Xt = D[:, 1], D[:, 2]
-    E, F, G = (np.einsum("ix,ix->i", p, q) for p, q in ((Xu, Xu), (Xu, Xt), (Xt, Xt)))
-    e, g, f = (np.einsum("ix,ix->i", D[:, k], n) for k in (3, 4, 5))
-    p, q = (np.einsum("ix,ix->i", across, v) for v in (Xu, Xt))
-    a, b = G * p - F * q, E * q - F * p
-    return np.asarray(
-        (e * a**2 + 2.0 * f * a * b + g * b**2) / (E * a**2 + 2.0 * F * a * b + G * b**2)
     )
 
 

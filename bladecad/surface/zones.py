@@ -5,22 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import reduce
-from typing import Final, Literal, TypeAlias, final
+from typing import Literal, TypeAlias, final
 
-import numpy as np
-
-from bladecad.arrays import Array, Vector
+from bladecad.arrays import Array
 from bladecad.errors import GeometryError
 from bladecad.surface.blade import EdgeKind, SideName
 from bladecad.surface.cutting import cut, joined, matched, turned_round
 from bladecad.surface.patch import SplinePatch
+from bladecad.surface.zone_ends import border, edge_kind
 
 Faces: TypeAlias = Literal[1, 2, 4]
 Part: TypeAlias = Literal["suction", "pressure", "leading", "trailing", "round"]
-
-CORNER: Final = np.radians(1.0)  # sides that meet at a larger angle are meant to have a corner
-ABREAST: Final = np.radians(30.0)  # between the sides where an edge ends and the body begins
-WIDEST: Final = 0.15  # an edge, in t
 
 
 @final
@@ -59,18 +54,6 @@ class Division:
     pressure: SplinePatch
     zones: tuple[Zone, ...]
     moved: float
-
-
-def edge_kind(suction: SplinePatch, pressure: SplinePatch, column: int) -> EdgeKind:
-    """Tell a blunt edge, where the sides are apart, from a corner and from a round one.
-
-    column : 0 for the leading edge, -1 for the trailing edge
-    """
-    if not np.array_equal(suction.poles[:, column], pressure.poles[:, column]):
-        return "blunt"
-    u, end = _places(suction.knots_u), suction.knots_t[[column]]
-    along, back = suction(u, end, 0, 1)[:, 0], -pressure(u, end, 0, 1)[:, 0]
-    return "sharp" if _angles(along, back).max() > CORNER else "round"
 
 
 def divide(
@@ -126,7 +109,12 @@ def _four(
     suction: SplinePatch, pressure: SplinePatch, kinds: Sequence[EdgeKind], allowed: float
 ) -> Division:
     suction, pressure, moved = _meeting(suction, pressure, kinds, allowed)
-    a, b = (_border(suction, pressure, k) if kinds[k] == "round" else float(-k) for k in (0, -1))
+    a, b = (border(suction, pressure, k) if kinds[k] == "round" else float(-k) for k in (0, -1))
+    if not a < b:
+        raise GeometryError(
+            f"patches of {suction.poles.shape[1]} poles along t are too coarse for zones of their "
+            "edges; ask for --faces 2"
+        )
     covered: list[tuple[Part, tuple[Stretch, ...]]] = [
         ("suction", (Stretch("suction", a, b),)),
         ("pressure", (Stretch("pressure", a, b),)),
@@ -149,11 +137,11 @@ def _meeting(
     """Make the sides meet smoothly at their round edges; tell how far that moved them."""
     moved = {"leading": 0.0, "trailing": 0.0}
     if kinds[0] == "round":
-        back, pressure, moved["leading"] = matched(turned_round(suction), pressure, allowed=allowed)
-        suction = turned_round(back)
+        back, ahead, moved["leading"] = matched(turned_round(suction), pressure, allowed=allowed)
+        suction, pressure = _with(suction, back.poles[:, ::-1]), _with(pressure, ahead.poles)
     if kinds[1] == "round":
-        suction, back, moved["trailing"] = matched(suction, turned_round(pressure), allowed=allowed)
-        pressure = turned_round(back)
+        ahead, back, moved["trailing"] = matched(suction, turned_round(pressure), allowed=allowed)
+        suction, pressure = _with(suction, ahead.poles), _with(pressure, back.poles[:, ::-1])
     edge = max(moved, key=lambda name: moved[name])
     if moved[edge] > allowed:
         raise GeometryError(
@@ -176,22 +164,6 @@ def _part(side: SplinePatch, stretch: Stretch) -> SplinePatch:
     return part if stretch.first < stretch.last else turned_round(part)
 
 
-def _border(suction: SplinePatch, pressure: SplinePatch, column: int) -> float:
-    """The first knot, from the edge, at which the sides run abreast at every u."""
-    u, knots = _places(suction.knots_u), np.unique(suction.knots_t)
-    t = knots if column == 0 else knots[::-1]
-    between = _angles(suction(u, t, 0, 1), pressure(u, t, 0, 1)).max(axis=0)
-    enough = (between <= ABREAST) | (np.abs(t - t[0]) > WIDEST)
-    enough[:2] = False  # a zone has room for two knots at least
-    return float(t[np.argmax(enough)])
-
-
-def _angles(a: Array, b: Array) -> Vector:
-    """Angles between vectors in the last axis, radians."""
-    sine = np.linalg.norm(np.cross(a, b), axis=-1)
-    return np.asarray(np.arctan2(sine, np.einsum("...x,...x->...", a, b)))
-
-
-def _places(knots: Vector) -> Vector:
-    breaks = np.unique(knots)
-    return np.union1d(breaks, 0.5 * (breaks[1:] + breaks[:-1]))
+def _with(patch: SplinePatch, poles: Array) -> SplinePatch:
+    """The same knots, to the last bit: turned round twice, 1 - (1 - t) is not t."""
+    return SplinePatch(poles, patch.knots_u, patch.knots_t, patch.degree_u, patch.degree_t)

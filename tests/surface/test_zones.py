@@ -10,11 +10,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bladecad.errors import GeometryError
+from bladecad.surface.blade import EdgeKind
 from bladecad.surface.cutting import cut, joined, matched, turned_round
 from bladecad.surface.loft import Loft, loft
 from bladecad.surface.patch import SplinePatch
-from bladecad.surface.zones import ABREAST, Zone, divide, edge_kind
+from bladecad.surface.zone_ends import ABREAST, edge_kind
+from bladecad.surface.zones import Faces, Zone, divide
 from tests.brep.blades import blade, with_poles
+from tests.deviation.scanned import blade as scanned
 from tests.export.products import small
 
 U = np.linspace(0.0, 1.0, 9)
@@ -109,6 +112,17 @@ def _astray(zone: Zone, one: Loft) -> float:
     )
 
 
+@pytest.mark.parametrize("kind", ["round", "blunt"])
+@pytest.mark.parametrize("faces", [4, 1])
+def test_both_sides_keep_their_knots_to_the_last_bit(faces: Faces, kind: EdgeKind) -> None:
+    """Else a border between zones is a knot of one side and none of the other."""
+    one = loft(scanned(kind), tolerance=1e-3)
+    division = divide(one.suction, one.pressure, faces, allowed=1e-4)
+    for side in (division.suction, division.pressure):
+        np.testing.assert_array_equal(side.knots_t, one.suction.knots_t)
+    assert all(_astray(zone, one) <= division.moved + 1e-12 for zone in division.zones)
+
+
 def test_zones_of_edges_end_where_the_sides_run_abreast() -> None:
     one = lofted()
     for zone in divide(one.suction, one.pressure, 4, allowed=1e-4).zones[2:]:
@@ -169,6 +183,11 @@ def test_sides_that_meet_less_than_c2_are_joined_c1_and_stay_as_they_are() -> No
     patch, u = division.zones[2].patch, np.linspace(0, 1, 9)
     before, behind = (patch(u, np.array([0.5 + s]), 0, 1)[:, 0] for s in (-1e-12, 1e-12))
     assert np.abs(before - behind).max() < 1e-6 * np.abs(before).max()
+
+
+def test_patches_too_coarse_for_zones_are_refused() -> None:
+    with pytest.raises(GeometryError, match="of 6 poles along t are too coarse"):
+        divide(*blade(nodes=4), 4, allowed=10.0)
 
 
 def test_sides_that_meet_less_than_c1_are_refused_with_the_number() -> None:
