@@ -14,6 +14,7 @@ from bladecad.surface.blade import BladeSurface, SideName, outward
 from bladecad.surface.loft import first_breaks
 
 ALONG: Final = 41  # places on a ruling
+CLOSEST: Final = 0.1  # of their distance at the hub: as near as rulings may come at the tip
 V: Final = np.linspace(0.0, 1.0, ALONG)
 WEIGHT: Final = np.where((V == 0.0) | (V == 1.0), 0.5**0.5, 1.0)[:, None]  # trapezoidal rule
 
@@ -66,9 +67,10 @@ class Rulings:
         """The step of least squares of the distance, sliding damped, ends of b held."""
         free = np.ones(c.shape, bool)
         free[1, [0, -1]] = False
-        A = np.concatenate([J, damping * hold])[:, free.ravel()]
+        J, hold = J[:, free.ravel()], hold[:, free.ravel()]
         step = np.zeros(c.size)
-        step[free.ravel()] = -np.linalg.lstsq(A, np.append(r, np.zeros(len(hold))), rcond=None)[0]
+        normal = J.T @ J + damping**2 * hold.T @ hold
+        step[free.ravel()] = -np.linalg.lstsq(normal, J.T @ r, rcond=None)[0]
         return step.reshape(c.shape)
 
     def t_of(self, found: Found) -> Vector:
@@ -77,8 +79,8 @@ class Rulings:
         return np.asarray(t0 + t1 * found.place[:, 1])
 
     def in_order(self, c: Array) -> bool:
-        """Whether rulings do not cross at the tip."""
-        return bool(np.all(np.diff(self.t + c[1] @ self.M.T) > 0.0))
+        """Whether rulings stay apart at the tip."""
+        return bool(np.all(np.diff(self.t + c[1] @ self.M.T) > CLOSEST * np.diff(self.t)))
 
 
 def side_skin(surface: BladeSurface, side: SideName) -> Skin:

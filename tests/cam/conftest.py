@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from bladecad.fit.blade import Order
 from bladecad.pipeline.blade_file import BladeFile, load_blade
 from bladecad.pipeline.build import Settings
 
@@ -13,4 +14,5 @@ from bladecad.pipeline.build import Settings
 @pytest.fixture(scope="session")
 def rotor37(fixtures: Path) -> BladeFile:
     """NASA Rotor 37, fitted within 12 um."""
-    return load_blade(fixtures / "rotor37" / "sections.csv", Settings(tolerance=0.012))
+    settings = Settings(tolerance=0.012, order=Order(4, 4, 17))
+    return load_blade(fixtures / "rotor37" / "sections.csv", settings)

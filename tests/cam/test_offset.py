@@ -22,7 +22,7 @@ from tests.surface.test_shapes import cone, lens
 U, T = np.linspace(0.0, 1.0, 33), np.linspace(0.0, 1.0, 65)
 
 
-@pytest.mark.parametrize("distance", [0.3, -0.3, 2.0])
+@pytest.mark.parametrize("distance", [2.0, -0.3])
 def test_a_tube_offset_is_a_tube(distance):
     found = offset_loft(tube(10.0, 10.0), distance)
     radius = np.array(
