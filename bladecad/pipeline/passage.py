@@ -26,6 +26,7 @@ from bladecad.pipeline.mesh_sizing import cells_for
 from bladecad.pipeline.passage_settings import PassageSettings
 
 A_PITCH: Final = 10.0  # steps on the pitch at mid-span, where no size is asked
+A_GAP: Final = 5.0  # chord errors at least in a gap
 A_SIZE: Final = 200.0  # chord errors in a size, where none is asked
 
 
@@ -160,11 +161,16 @@ def _row(blade: BladeFile, settings: PassageSettings) -> Row:
 
 
 def _sizing(blade: Trimmed, count: int, settings: PassageSettings) -> Sizing:
-    """What is asked; else a tenth of the pitch, and a two hundredth of that for the chord error."""
+    """What is asked; else a tenth of the pitch, and a two hundredth of that for the chord error.
+
+    Triangles of the wall lie inside it: a chord error as large as a gap would close it.
+    """
     size = settings.size
     if size is None:
         half = np.array([0.5])
         r = np.linalg.norm(np.delete(blade.surface("suction", half, half)[0, 0], blade.axis))
         size = float(2.0 * np.pi * r / count / A_PITCH)
     error = settings.chord_error if settings.chord_error is not None else size / A_SIZE
+    gaps = [gap for gap in (blade.hub_gap, blade.tip_gap) if gap > 0.0]
+    error = min([error, *(gap / A_GAP for gap in gaps)])
     return Sizing(size, error, settings.growth, settings.edge)

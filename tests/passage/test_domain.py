@@ -76,6 +76,17 @@ def test_gaps_at_the_tip_and_at_the_hub_are_fluid():
     assert made["tip_gap"].volume == pytest.approx(witness(0.7), rel=1e-4)
 
 
+def test_triangles_keep_a_narrow_gap_open():
+    """Chords of the shroud come inwards; asked for 0.05 mm they would be in the metal."""
+    passage = passage_of(row(), replace(COARSE, size=8.0, tip_gap=0.05))
+    X, patches = passage.mesh.vertices, passage.mesh.patches
+    middles = X[patches["shroud"]].mean(axis=1)
+    lowest = np.linalg.norm(middles[:, :2], axis=1).min()
+    assert passage.chord_error <= 0.01
+    assert lowest > SHROUD - 0.02
+    assert passage.mesh.open_edges == 0
+
+
 @pytest.mark.parametrize("gap", [0.0, 0.7])
 def test_a_blunt_edge_has_its_face(gap):
     blade = replace(row(), surface=prism(te="blunt"))
