@@ -15,7 +15,9 @@ from bladecad.surface.blade import BladeSurface, EdgeKind
 A_CHORD: Final = 40.0  # steps, where no size is asked
 BASE: Final = 4.0  # cells of the box, in sizes, at most
 AROUND: Final = 12.0  # reach of the box beyond the blade, in sizes
-RADII: Final = 2.0  # cells on a round edge, in its least radius
+RADII: Final = (
+    1.75  # cells on a round edge, in its least radius; at 2 some snap a quarter of a cell off
+)
 THICKNESS: Final = 0.5  # cells on the blade, in the greatest thickness of its thinnest section
 SMALLEST: Final = 1.0 / 32.0  # cells on an edge, in sizes, where none are asked
 
@@ -39,7 +41,7 @@ def cells_for(surface: BladeSurface, sizing: Sizing) -> Cells:
     """Cells of a volume mesh to go with a sizing.
 
     On the blade no more than half its thickness, where that is least along the span, so that both
-    sides are told apart. On an edge the size asked for it; where none is, twice its least radius,
+    sides are told apart. On an edge the size asked for it; where none is, 1.75 of its least radii,
     but no less than a thirty-second of the size; of a blunt edge half its least width; of a sharp
     one a quarter of the size.
     """
