@@ -15,9 +15,7 @@ from bladecad.surface.blade import BladeSurface, EdgeKind
 A_CHORD: Final = 40.0  # steps, where no size is asked
 BASE: Final = 4.0  # cells of the box, in sizes, at most
 AROUND: Final = 12.0  # reach of the box beyond the blade, in sizes
-RADII: Final = (
-    1.75  # cells on a round edge, in its least radius; at 2 some snap a quarter of a cell off
-)
+RADII: Final = 1.75  # cells on a round edge, in its least radius; at 2 some snap 0.25 of a cell off
 THICKNESS: Final = 0.5  # cells on the blade, in the greatest thickness of its thinnest section
 SMALLEST: Final = 1.0 / 32.0  # cells on an edge, in sizes, where none are asked
 
