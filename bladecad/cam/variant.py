@@ -18,6 +18,7 @@ from bladecad.surface.blade import BladeSurface
 
 MOST_SHRINKAGE: Final = 20.0  # percent; castings shrink by one or two
 MOST_UNTWIST: Final = 90.0  # degrees
+SCALES: Final = (1e-3, 1e3)  # the least and the largest, beyond any change of unit
 
 
 @final
@@ -39,11 +40,21 @@ class Variant:
     def __post_init__(self) -> None:
         if self.mirror not in (None, "x", "y", "z"):
             raise ToleranceError(f'mirror "{self.mirror}" is no axis; give x, y or z')
-        if not 0.0 < self.scale < np.inf:
-            raise ToleranceError(f"a scale of {self.scale:g} is no scale; give more than 0")
+        if not SCALES[0] <= self.scale <= SCALES[1]:
+            raise ToleranceError(
+                f"a scale of {self.scale:g} is asked; it must lie between {SCALES[0]:g} and "
+                f"{SCALES[1]:g}"
+            )
         table = self._table()
-        if table.ndim != 2 or table.shape[1] != 2 or not np.isfinite(table).all():
+        if table.ndim != 2 or table.shape[1] != 2:
             raise ToleranceError(f"untwist of shape {table.shape} is no table of (u, degrees)")
+        if not np.isfinite(table).all():
+            raise ToleranceError("untwist holds what is no number; give u and degrees")
+        if table[:, 0].min() < 0.0 or table[:, 0].max() > 1.0:
+            raise ToleranceError(
+                f"untwist: u = {table[:, 0].min():g} to {table[:, 0].max():g} is asked, a blade "
+                "has 0 (hub) to 1 (tip)"
+            )
         if np.any(np.diff(table[:, 0]) <= 0):
             raise ToleranceError(f"untwist: span must rise from hub to tip, got {table[:, 0]}")
         if np.abs(table[:, 1]).max() > MOST_UNTWIST:

@@ -74,7 +74,12 @@ def parse_span(text: str) -> Any:
 
 def check_name(name: str | None) -> str | None:
     """Refuse names that are no file names."""
-    if name is not None and (not name.strip() or name.startswith(".") or {*name} & {*'/\\:*?"<>|'}):
+    if name is not None and (
+        not name.strip()
+        or name.startswith(".")
+        or {*name} & {*'/\\:*?"<>|'}
+        or not name.isprintable()
+    ):
         raise typer.BadParameter(f'"{name}" is no name for a file')
     return name
 

@@ -29,6 +29,6 @@ def cad_format(path: str | os.PathLike[str]) -> Literal["STEP", "IGES", "BREP"]:
     suffix = Path(path).suffix.lower()
     if suffix not in CAD:
         raise ExportError(
-            f'{Path(path).name}: "{suffix}" is no CAD format; known are {", ".join(CAD)}'
+            f'{Path(path).name}: "{suffix}" is no CAD format; known are {", ".join(CAD)}, and .stl'
         )
     return CAD[suffix]

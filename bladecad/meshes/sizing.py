@@ -38,10 +38,10 @@ class Sizing:
     aspect: float = 4.0
 
     def __post_init__(self) -> None:
-        for name, value in (("size", self.size), ("chord error", self.chord_error)):
+        for name, value in (("a size", self.size), ("a chord error", self.chord_error)):
             _positive(name, value)
         if self.edge is not None:
-            _positive("edge size", self.edge)
+            _positive("an edge size", self.edge)
         for name, value in (("growth", self.growth), ("aspect", self.aspect)):
             if not (math.isfinite(value) and value > 1.0):
                 raise ToleranceError(f"a {name} of {value:g} is asked; it must be above 1")
@@ -49,7 +49,7 @@ class Sizing:
 
 def _positive(name: str, value: float) -> None:
     if not (math.isfinite(value) and value > 0.0):
-        raise ToleranceError(f"a {name} of {value:g} mm is asked; it must be above 0")
+        raise ToleranceError(f"{name} of {value:g} mm is asked; it must be above 0")
 
 
 def chordwise(surface: BladeSurface, sizing: Sizing) -> Vector:

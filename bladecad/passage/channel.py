@@ -17,6 +17,7 @@ from bladecad.surface.blade import SideName
 
 STATIONS: Final = np.array([0.0, 1.0, 2.0, 3.0])  # inlet, leading edge, trailing edge, outlet
 LEAST: Final = 0.02  # of the meridional chord, between an edge and inlet or outlet
+MOST_GAP: Final = 0.2  # of the height between the walls
 WITHIN: Final = 1e-9
 NEWTON: Final = 40
 SIDES: Final[tuple[SideName, SideName]] = ("suction", "pressure")
@@ -116,6 +117,7 @@ def channel_of(
         notes += note
     channel = Channel(blade.hub, blade.shroud, found[0], found[1])
     _check_lines(channel)
+    _check_gaps(channel, blade)
     return channel, tuple(notes)
 
 
@@ -146,11 +148,29 @@ def _stations(
                 f"the {name} reaches {free:.4g} mm beyond the {edge} edge, {wanted:.4g} mm are "
                 f"needed for the {what}; give walls that reach further or a smaller --{what}"
             )
+        if asked is not None and asked < LEAST * chord:
+            raise DataError(
+                f"an {what} {asked:g} mm from the {edge} edge is too near it on the {name}, "
+                f"{LEAST * chord:.3g} mm at least are needed; give a larger --{what}"
+            )
         distance = min(chord, free) if asked is None else asked
         if asked is None and free < chord:
             notes.append(f"the {name} ends {free:.4g} mm from the {edge} edge: so does the domain")
         ends.append((le if sign < 0 else te) + sign * distance)
     return np.interp([ends[0], le, te, ends[1]], length, s), notes
+
+
+def _check_gaps(channel: Channel, blade: Trimmed) -> None:
+    """A gap is measured along the wall's normal; far from a bent wall that has no one meaning."""
+    at = STATIONS[1:3]
+    low, high = (channel(at, np.full(2, v)) for v in (0.0, 1.0))
+    height = float(np.linalg.norm(high - low, axis=1).min())
+    for name, gap in (("hub", blade.hub_gap), ("tip", blade.tip_gap)):
+        if gap > MOST_GAP * height:
+            raise DataError(
+                f"a {name} gap of {gap:g} mm is asked, the passage is {height:.4g} mm high; "
+                f"{MOST_GAP * height:.3g} mm at most"
+            )
 
 
 def _check_lines(channel: Channel) -> None:

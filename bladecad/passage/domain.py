@@ -15,6 +15,7 @@ from bladecad.passage.assemble import meshed
 from bladecad.passage.channel import SIDES, Channel
 from bladecad.passage.cylinder import from_cylinder, to_cylinder
 from bladecad.passage.periodic import Camber, camber_of, clearance
+from bladecad.passage.steps import ROUND
 from bladecad.passage.trim import WALLS, Trimmed
 from bladecad.passage.volume import passage_volume
 from bladecad.surface.loft import graded
@@ -23,6 +24,8 @@ from bladecad.surface.ruled import Triangles
 VOLUME: Final = 1e-4  # relative, of the mesh against the quadrature
 SAFE: Final = 0.7  # of the chord error, asked of what is laid out by estimates
 MOST_ROUNDS: Final = 6
+STUCK: Final = 0.8  # of the last worst: a finer mesh that gains less, while it is still so many
+FAR_OFF: Final = 2.0  # times off what is allowed, is not what is missing
 LARGEST: Final = 4_000_000  # triangles
 
 
@@ -104,14 +107,19 @@ def mesh_passage(
     free = clearance(_scattered(blade), camber, blade.axis, angle, 2.0 * np.pi / count)
     volume = passage_volume(blade, channel, count, angle)
     on_walls = on_sides = replace(sizing, chord_error=SAFE * sizing.chord_error)
+    _check_number(triangles_at_least(channel, count, on_walls), on_walls)
+    before = np.inf
     for _ in range(MOST_ROUNDS):
         mesh, twins, errors = meshed(blade, camber, angle, count, on_walls, on_sides)
         missing = abs(mesh.volume / volume - 1.0)
         by_wall, by_side = (max(e / sizing.chord_error, missing / VOLUME) for e in errors)
-        if max(by_wall, by_side) <= 1.0 or len(mesh.triangles) > LARGEST:
+        worst = max(by_wall, by_side)
+        if worst <= 1.0 or worst > max(FAR_OFF, STUCK * before):
             break
+        _check_number(len(mesh.triangles) * worst, sizing)
+        before = worst
         on_walls, on_sides = _finer(on_walls, by_wall), _finer(on_sides, by_side)
-    if max(by_wall, by_side) > 1.0:
+    if worst > 1.0:
         raise GeometryError(
             f"the mesh of the passage is {1e3 * max(errors):.3g} um off blade and walls, "
             f"{1e3 * sizing.chord_error:.3g} um are allowed, its volume {missing:.2g} (relative), "
@@ -124,6 +132,28 @@ def mesh_passage(
         _apart(X, twins, blade.axis, 2.0 * np.pi / count), max(errors), free,
         _fluid(camber, blade), notes,
     )  # fmt: skip
+
+
+def triangles_at_least(channel: Channel, count: int, sizing: Sizing) -> float:
+    """Estimate from below how many triangles walls and periodic faces take."""
+    sigma = np.linspace(0.0, 3.0, 61)
+    low, high = (channel(sigma, np.full_like(sigma, v)) for v in (0.0, 1.0))
+    runs = [np.linalg.norm(np.diff(zr, axis=0), axis=1) for zr in (low, high)]
+    height = float(np.linalg.norm(high - low, axis=1).min())
+    found = 2.0 * 2.0 * min(run.sum() for run in runs) * height / sizing.size**2
+    for run, zr in zip(runs, (low, high), strict=True):
+        r = 0.5 * (zr[1:, 1] + zr[:-1, 1])
+        h = np.minimum(sizing.size, np.sqrt(ROUND * r * sizing.chord_error))
+        found += float(np.sum(2.0 * (2.0 * np.pi / count) * r * run / h**2))
+    return float(found)
+
+
+def _check_number(triangles: float, sizing: Sizing) -> None:
+    if triangles > LARGEST:
+        raise GeometryError(
+            f"a size of {sizing.size:g} mm and a chord error of {1e3 * sizing.chord_error:.3g} um "
+            f"would take {triangles:.2g} triangles, {LARGEST:.2g} at most are made; ask for larger"
+        )
 
 
 def _finer(sizing: Sizing, worst: float) -> Sizing:

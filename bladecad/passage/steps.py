@@ -29,7 +29,7 @@ def allowed(wall: Wall, *, size: float, chord_error: float) -> Vector:
     along, step = np.full(len(even), float(size)), even[1]
     for k in range(HALVES):
         h = size / 2.0**k
-        half = max(round(0.5 * h / step), 1)
+        half = min(max(round(0.5 * h / step), 1), (len(even) - 1) // 2)
         padded = np.pad(zr, ((half, half), (0, 0)), mode="edge")
         sag = np.linalg.norm(zr - 0.5 * (padded[2 * half :] + padded[: -2 * half]), axis=1)
         sag[:half], sag[-half:] = sag[half], sag[-half - 1]

@@ -115,7 +115,7 @@ def walls(hub: Array, shroud: Array) -> tuple[Wall, Wall]:
     Raises
     ------
     DataError
-        If a wall has fewer than two points or a radius below 0, or the hub is above the shroud.
+        If a wall has fewer than two points or a radius not above 0, or the hub is above the shroud.
     """
     clean = [_checked(name, zr) for name, zr in (("hub", hub), ("shroud", shroud))]
     _check_order(*clean)
@@ -135,12 +135,15 @@ def _checked(name: str, zr: Array) -> Array:
     zr = np.concatenate([zr[:1], zr[1:][steps > SAME]])
     if len(zr) < 2:
         raise DataError(
-            f"the {name} has {len(zr)} points, 2 are needed; "
+            f"the {name} has {len(zr) or 'no'} point{'' if len(zr) == 1 else 's'}, 2 are needed; "
             "give hub and shroud with the blade or by --walls"
         )
-    if zr[:, 1].min() < 0.0:
+    if zr[:, 1].min() <= 0.0:
         i = int(zr[:, 1].argmin())
-        raise DataError(f"the {name} has a radius of {zr[i, 1]:g} mm at point {i + 1}; correct it")
+        raise DataError(
+            f"the {name} has a radius of {zr[i, 1]:g} mm at point {i + 1}, it must be above 0; "
+            "end it before the axis"
+        )
     return zr
 
 

@@ -72,12 +72,13 @@ def write_blade_mesh(
 def _write_triangles(
     blade: BladeFile, stage: Path, form: MeshFormat, sizing: Sizing
 ) -> tuple[NamedMesh, Reached]:
-    cells, axis = cells_for(blade.surface, sizing), blade.machine.axis
+    cells = cells_for(blade.surface, sizing) if form == "openfoam" else None
     patches = mesh_blade(blade.surface, sizing)
     data = {}
     if form == "vtk":
         data = _point_data(blade.surface, patches)
         _write_vts(blade, stage, sizing)
+    axis = blade.machine.axis
     write_mesh(patches.mesh, stage, form, blade.name, cells, axis=axis, point_data=data)
     return patches.mesh, {
         "chord_error_mm": patches.chord_error,
@@ -112,7 +113,7 @@ def write_mesh(
     folder: Path,
     form: MeshFormat,
     name: str,
-    cells: Cells,
+    cells: Cells | None,
     *,
     axis: Axis = "z",
     point_data: Mapping[str, Vector] | None = None,
@@ -120,6 +121,7 @@ def write_mesh(
 ) -> None:
     """Write any named mesh, of a blade or of a passage, into a folder that exists."""
     if form == "openfoam":
+        assert cells is not None
         write_case(mesh, folder, cells, name=_word(name), axis=axis, inside=inside)
     elif form == "stl":
         from bladecad.cfd.stl_solids import write_stl_solids

@@ -100,7 +100,7 @@ def write_passage(
         mesh = full_row(passage) if row else passage.mesh
         name = f"{blade.name}_{'row' if row else 'passage'}"
         sizing = _sizing(passage.blade, passage.count, settings)
-        cells = cells_for(blade.surface, sizing)
+        cells = cells_for(blade.surface, sizing) if form == "openfoam" else None
         write_mesh(mesh, stage, form, name, cells, axis=blade.machine.axis, inside=passage.inside)
         found = reached(passage)
         if step:

@@ -19,6 +19,8 @@ from bladecad.surface.spread import spread, strayed
 On = Literal["planes", "cylinders", "streams"]
 
 FEWEST: Final = 8  # points of a section: three on each side and the two edges
+MOST: Final = 20_000
+MOST_SECTIONS: Final = 1_000
 BEYOND: Final = 0.05  # of the span, that u may lie outside 0 .. 1
 DENSE: Final = 1601  # places on a side, from which its points are chosen
 
@@ -51,12 +53,17 @@ def cuts(
     Raises
     ------
     ToleranceError
-        If there are fewer than 8 points, or a place is given twice or is not finite.
+        If there are fewer than 8 points or too many, or a place is given twice or is not finite.
     GeometryError
         If a place misses the blade or cuts only a part of it.
     """
     if points < FEWEST:
         raise ToleranceError(f"{points} points round a section; at least {FEWEST} are needed")
+    if points > MOST or len(places) > MOST_SECTIONS:
+        raise ToleranceError(
+            f"{len(places)} sections of {points} points are asked; "
+            f"{MOST_SECTIONS} of {MOST} at most"
+        )
     ranked = sorted(places)
     if not np.isfinite(ranked).all() or np.any(np.diff(ranked) <= 0):
         raise ToleranceError(f"sections at {_list(places)}: each place once, and finite")
@@ -80,6 +87,8 @@ def evenly(surface: BladeSurface, level: Level | None, count: int) -> Vector:
     GeometryError
         If none cuts the whole blade.
     """
+    if count > MOST_SECTIONS:
+        raise ToleranceError(f"{count} stations are asked; {MOST_SECTIONS} at most")
     if count < 2:
         raise ToleranceError(
             f"{count} station{'s' * (count != 1)}; a file of sections needs 2 at least"

@@ -99,6 +99,10 @@ def test_walls_and_blade_count_from_options_do_for_a_blade_alone(alone: Path, tm
         (("--passage", "--tip-gap", "-0.1"), "a tip gap of -0.1 mm is asked; 0 or more"),
         (("--passage", "--inlet", "0"), "it must be above 0"),
         (("--passage", "--walls", "WALLS", "--blades", "24", "--size", "0"), "must be above 0"),
+        (("--passage", "--walls", "WALLS", "--blades", "24", "--size", "0.01"), "would take"),
+        (("--passage", "--walls", "WALLS", "--blades", "24", "--inlet", "0.01"), "is too near it"),
+        (("--passage", "--walls", "WALLS", "--blades", "24", "--tip-gap", "30"), "mm at most"),
+        (("--passage", "--walls", "AXIS", "--blades", "24"), "a radius of 0 mm"),
         (("--blades", "24"), "--blades is about the passage; give --passage or --row"),
         (("--step",), "--step is about the passage"),
     ],
@@ -107,6 +111,7 @@ def test_what_makes_no_passage_is_refused_and_nothing_written(asked, said, alone
     files = {
         "WALLS": lambda: table(tmp_path),
         "SWAPPED": lambda: table(tmp_path, SHROUD, HUB),
+        "AXIS": lambda: table(tmp_path, 0.0, SHROUD),
         "HIGH": lambda: table(tmp_path, 300.0, 400.0),
         "MISSING": lambda: tmp_path / "nowhere.csv",
     }

@@ -57,8 +57,8 @@ def test_points_given_twice_are_one():
     ("hub", "shroud", "said"),
     [
         (line(150.0), line(100.0), "hub is above the shroud: radius 150 mm against 100 mm"),
-        (line(100.0)[:1], line(150.0), "the hub has 1 points, 2 are needed"),
-        (line(100.0), np.empty((0, 2)), "the shroud has 0 points"),
+        (line(100.0)[:1], line(150.0), "the hub has 1 point, 2 are needed"),
+        (line(100.0), np.empty((0, 2)), "the shroud has no points"),
         (line(-5.0), line(150.0), "radius of -5 mm"),
     ],
 )

@@ -197,3 +197,11 @@ def test_a_fitted_blade_is_cut_on_its_own_stream_surfaces():
     blade = small().surface
     found = cuts(blade, None, blade.span, points=120)
     assert max(cut.between for cut in found) < 2e-3
+
+
+def test_more_than_anyone_can_use_is_refused_at_once():
+    blade = rotor()
+    with pytest.raises(ToleranceError, match="2 sections of 1000000 points are asked; 1000 of"):
+        cuts(blade, None, [0.2, 0.8], points=1_000_000)
+    with pytest.raises(ToleranceError, match="1000000000 stations are asked; 1000 at most"):
+        evenly(blade, None, 1_000_000_000)
