@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -14,9 +13,6 @@ from bladecad.cli.guard import Exit, guarded
 WIDTH = 14
 CUT = "How it is cut"
 
-Model = Annotated[
-    Path, typer.Argument(metavar="MODEL", help="Model file, or sections that are fitted first.")
-]
 Ball = Annotated[
     float,
     typer.Option("--ball", metavar="MM", rich_help_panel=CUT,
@@ -32,21 +28,16 @@ Tolerance = Annotated[
     typer.Option("--tolerance", metavar="MM", rich_help_panel=CUT,
                  help="How far flank milling may be from the blade."),
 ]  # fmt: skip
-FitTolerance = Annotated[
-    float,
-    typer.Option("--fit-tolerance", metavar="MM", rich_help_panel=ask.READ,
-                 help="Of the fit, where MODEL is a file of sections, mm."),
-]  # fmt: skip
 
 
 @guarded
 def cam_sheet(
-    path: Model,
+    path: ask.Blade,
     output: ask.OutputFolder,
     ball: Ball = 3.0,
     scallop: Scallop = 0.005,
     tolerance: Tolerance = 0.05,
-    fit_tolerance: FitTolerance = 0.01,
+    fit_tolerance: ask.FitTolerance = 0.01,
     units: ask.Units = None,
     axis: ask.Axis = None,
     name: ask.Name = None,

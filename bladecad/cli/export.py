@@ -25,7 +25,7 @@ SCHEMAS: dict[str, Schema] = {"ap242": "AP242DIS", "ap214": "AP214IS"}
 
 @guarded
 def export(
-    path: want.Model,
+    path: ask.Blade,
     output: want.OutputFile,
     faces: want.Faces = None,
     schema: want.Schema = None,
@@ -37,7 +37,7 @@ def export(
     offset: want.Offset = 0.0,
     units: ask.Units = None,
     axis: ask.Axis = None,
-    fit_tolerance: want.FitTolerance = 0.01,
+    fit_tolerance: ask.FitTolerance = 0.01,
     name: ask.Name = None,
     force: ask.Force = False,
     quiet: ask.Quiet = False,

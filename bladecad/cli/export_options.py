@@ -26,9 +26,6 @@ def parse_untwist(text: str) -> Any:
         ) from error
 
 
-Model = Annotated[
-    Path, typer.Argument(metavar="MODEL", help="Model file, or sections that are fitted first.")
-]
 OutputFile = Annotated[
     Path,
     typer.Option("-o", "--output", metavar="FILE", rich_help_panel=ask.OUT,
@@ -49,11 +46,6 @@ Tolerance = Annotated[
     typer.Option("--tolerance", metavar="MM", show_default=False, rich_help_panel=ask.OUT,
                  help="Largest distance of faces from the surface or its offset, else 0.001; of "
                  "triangles, else 0.005."),
-]  # fmt: skip
-FitTolerance = Annotated[
-    float,
-    typer.Option("--fit-tolerance", metavar="MM", rich_help_panel=ask.READ,
-                 help="Largest distance of fit and points, where MODEL is sections."),
 ]  # fmt: skip
 Untwist = Annotated[
     Any,

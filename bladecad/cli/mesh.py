@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
@@ -20,9 +21,6 @@ if TYPE_CHECKING:
 FormatChoice: TypeAlias = Literal["openfoam", "stl", "msh", "plot3d", "vtk"]
 SIZES = "How large the triangles are"
 
-Model = Annotated[
-    Path, typer.Argument(metavar="MODEL", help="Model file, or sections that are fitted first.")
-]
 Format = Annotated[
     FormatChoice,
     typer.Option("--format", rich_help_panel=ask.OUT,
@@ -53,7 +51,7 @@ EdgeSize = Annotated[
 
 @guarded
 def mesh(
-    path: Model,
+    path: ask.Blade,
     output: ask.OutputFolder,
     format: Format,
     size: Size = None,
@@ -69,6 +67,9 @@ def mesh(
     inlet: asked.Inlet = None,
     outlet: asked.Outlet = None,
     step: asked.Step = False,
+    units: ask.Units = None,
+    axis: ask.Axis = None,
+    fit_tolerance: ask.FitTolerance = 0.01,
     name: ask.Name = None,
     force: ask.Force = False,
     quiet: ask.Quiet = False,
@@ -82,6 +83,8 @@ def mesh(
     """
     log_to_stderr(verbose)
     from bladecad.export.stage import check_folder
+    from bladecad.pipeline import Settings
+    from bladecad.pipeline.blade_file import load_blade
 
     domain = {
         "walls": walls, "blades": blades, "tip_gap": tip_gap, "hub_gap": hub_gap,
@@ -93,7 +96,8 @@ def mesh(
         asked.refuse_alone({**domain, "step": step})
     check_folder(output, force=force)
     with progress(quiet=quiet) as tell:
-        blade = _blade(path, name, tell)
+        blade = load_blade(path, Settings(fit_tolerance, unit=units, axis=axis), progress=tell)
+        blade = replace(blade, name=name or blade.name)
         tell("mesh")
         notes = blade.notes
         if settings is None:
@@ -125,16 +129,6 @@ def _write_blade(
         sizes["chord_error"] = 0.01
     sizing = sizing_for(blade.surface, **sizes)
     return write_blade_mesh(blade, output, format, sizing, force=force)
-
-
-def _blade(path: Path, name: str | None, tell: Any) -> BladeFile:
-    """The blade, under the name that was asked for."""
-    from dataclasses import replace
-
-    from bladecad.pipeline.blade_file import load_blade
-
-    blade = load_blade(path, progress=tell)
-    return replace(blade, name=name) if name else blade
 
 
 def _show(said: Mapping[str, Any], notes: Sequence[str], output: Path, *, quiet: bool) -> None:

@@ -87,6 +87,9 @@ def check_name(name: str | None) -> str | None:
 Input = Annotated[
     Path, typer.Argument(metavar="INPUT", help="File, folder, or one file of a numbered family.")
 ]
+Blade = Annotated[
+    Path, typer.Argument(metavar="MODEL", help="Model file, or sections that are fitted first.")
+]
 OutputFolder = Annotated[
     Path,
     typer.Option("-o", "--output", metavar="DIR", help="Folder for the files.",
@@ -113,6 +116,11 @@ Tolerance = Annotated[
 ChordError = Annotated[
     float, typer.Option(metavar="MM", help="Of the triangles, mm.", rich_help_panel=OUT)
 ]
+FitTolerance = Annotated[
+    float,
+    typer.Option("--fit-tolerance", metavar="MM", rich_help_panel=READ,
+                 help="Largest distance of fit and points, where MODEL is sections."),
+]  # fmt: skip
 Model = Annotated[ModelChoice, typer.Option(help="Linear system.", rich_help_panel=FIT)]
 OrderOf = Annotated[
     Any,
