@@ -35,29 +35,29 @@ if TYPE_CHECKING:
     from bladecad.data.synthetic import synthetic_blade as synthetic_blade
     from bladecad.data.tolerance_file import read_tolerances as read_tolerances
     from bladecad.data.write import write_sections as write_sections
-    from bladecad.deviation.feet import Feet as Feet
-    from bladecad.deviation.inspection import Inspection as Inspection
-    from bladecad.deviation.inspection import inspect as inspect
-    from bladecad.deviation.measure import Deviation as Deviation
-    from bladecad.deviation.measure import measure as measure
-    from bladecad.deviation.nominal import Nominal as Nominal
-    from bladecad.deviation.nominal import nominal_of as nominal_of
-    from bladecad.deviation.project import project as project
-    from bladecad.deviation.registration import Registration as Registration
-    from bladecad.deviation.registration import register as register
+    from bladecad.deviation.inspecting.inspection import Inspection as Inspection
+    from bladecad.deviation.inspecting.inspection import inspect as inspect
+    from bladecad.deviation.inspecting.measure import Deviation as Deviation
+    from bladecad.deviation.inspecting.measure import measure as measure
+    from bladecad.deviation.nearest.feet import Feet as Feet
+    from bladecad.deviation.nearest.nominal import Nominal as Nominal
+    from bladecad.deviation.nearest.nominal import nominal_of as nominal_of
+    from bladecad.deviation.nearest.project import project as project
+    from bladecad.deviation.registering.registration import Registration as Registration
+    from bladecad.deviation.registering.registration import register as register
     from bladecad.errors import BladecadError as BladecadError
     from bladecad.errors import DataError as DataError
     from bladecad.errors import ExportError as ExportError
     from bladecad.errors import FitError as FitError
     from bladecad.errors import GeometryError as GeometryError
     from bladecad.errors import ToleranceError as ToleranceError
-    from bladecad.export.check_files import export_check as export_check
+    from bladecad.export.cad.step import write_step as write_step
+    from bladecad.export.cad.stl import write_stl as write_stl
+    from bladecad.export.check.files import export_check as export_check
     from bladecad.export.files import export_blade as export_blade
-    from bladecad.export.info import describe as describe
-    from bladecad.export.model_file import load as load
-    from bladecad.export.model_file import save as save
-    from bladecad.export.step import write_step as write_step
-    from bladecad.export.stl import write_stl as write_stl
+    from bladecad.export.model.model_file import load as load
+    from bladecad.export.model.model_file import save as save
+    from bladecad.export.reports.info import describe as describe
     from bladecad.fit.blade import BladeFit as BladeFit
     from bladecad.fit.blade import Order as Order
     from bladecad.fit.order import fit_blade as fit_blade
@@ -214,12 +214,12 @@ _HOMES = {
     "data.synthetic": ("synthetic_blade",),
     "data.tolerance_file": ("read_tolerances",),
     "data.write": ("write_sections",),
-    "deviation.feet": ("Feet",),
-    "deviation.inspection": ("Inspection", "inspect"),
-    "deviation.measure": ("Deviation", "measure"),
-    "deviation.nominal": ("Nominal", "nominal_of"),
-    "deviation.project": ("project",),
-    "deviation.registration": ("Registration", "register"),
+    "deviation.inspecting.inspection": ("Inspection", "inspect"),
+    "deviation.inspecting.measure": ("Deviation", "measure"),
+    "deviation.nearest.feet": ("Feet",),
+    "deviation.nearest.nominal": ("Nominal", "nominal_of"),
+    "deviation.nearest.project": ("project",),
+    "deviation.registering.registration": ("Registration", "register"),
     "errors": (
         "BladecadError",
         "DataError",
@@ -228,12 +228,12 @@ _HOMES = {
         "GeometryError",
         "ToleranceError",
     ),
-    "export.check_files": ("export_check",),
+    "export.cad.step": ("write_step",),
+    "export.cad.stl": ("write_stl",),
+    "export.check.files": ("export_check",),
     "export.files": ("export_blade",),
-    "export.info": ("describe",),
-    "export.model_file": ("load", "save"),
-    "export.step": ("write_step",),
-    "export.stl": ("write_stl",),
+    "export.model.model_file": ("load", "save"),
+    "export.reports.info": ("describe",),
     "fit.blade": ("BladeFit", "Order"),
     "fit.order": ("fit_blade",),
     "meshes.blade": ("mesh_blade",),

@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
-    from bladecad.deviation.registration import Kind
+    from bladecad.deviation.registering.registration import Kind
     from bladecad.pipeline.check import AnyNominal, AnyScan, AnyTolerance, Check, CheckSettings
 
 SAID: Final = 5  # reasons in a message; the report has all
@@ -79,7 +79,7 @@ def assert_within(
 
 
 def _kept(found: Check, folder: Path) -> Path:
-    from bladecad.export.check_files import export_check
+    from bladecad.export.check.files import export_check
 
     return export_check(found, folder, force=True)["page"]
 
@@ -89,7 +89,7 @@ def _somewhere() -> Path:
 
 
 def _message(found: Check, page: Path) -> Iterator[str]:
-    from bladecad.export.worst_place import worst_place
+    from bladecad.export.check.worst_place import worst_place
 
     reasons, worst = found.reasons, found.inspection.worst
     yield f'blade "{found.name}" is out of tolerance'

@@ -5,7 +5,7 @@ import pytest
 
 from bladecad.data.sections import Machine, Row
 from bladecad.errors import DataError
-from bladecad.export.model_file import save
+from bladecad.export.model.model_file import save
 from bladecad.meshes.named import NamedMesh
 from bladecad.pipeline import Settings
 from bladecad.pipeline.blade_file import load_blade

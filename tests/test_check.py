@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 from bladecad.data.scan import Scan
 from bladecad.data.sections import Source
 from bladecad.errors import DataError, ToleranceError
-from bladecad.export.model_file import save
+from bladecad.export.model.model_file import save
 from bladecad.pipeline import CheckSettings, NominalSettings, check, load_nominal
 from bladecad.pipeline.nominal import LoadedNominal
 from bladecad.surface.blade import BladeSurface, SideName, normals
@@ -42,8 +42,8 @@ def scanned(
 @pytest.fixture(scope="module")
 def files(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     """The small blade as model, sections, STEP and mesh."""
-    from bladecad.export.step import write_step
-    from bladecad.export.stl import write_stl
+    from bladecad.export.cad.step import write_step
+    from bladecad.export.cad.stl import write_stl
 
     folder, blade = tmp_path_factory.mktemp("nominal"), small()
     save(blade.surface, folder / "blade.json")

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import bladecad
-from bladecad.export.model_file import save
+from bladecad.export.model.model_file import save
 from tests.export.products import small
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -12,8 +12,8 @@ import pytest
 import trimesh
 
 import bladecad
-from bladecad.deviation.nominal import nominal_of
-from bladecad.deviation.project import project
+from bladecad.deviation.nearest.nominal import nominal_of
+from bladecad.deviation.nearest.project import project
 from bladecad.errors import DataError, ToleranceError
 from bladecad.export.files import export_blade
 from bladecad.pipeline.scan import build_scan, sections_of_scan

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bladecad.export.model_file import save
+from bladecad.export.model.model_file import save
 from bladecad.pipeline import CheckSettings
 from bladecad.testing import assert_within
 from tests.export.products import small

@@ -8,7 +8,7 @@ from typing import Final, final
 import numpy as np
 
 from bladecad.arrays import Points, Vector, seal
-from bladecad.deviation.skin import Skin, search
+from bladecad.deviation.nearest.skin import Skin, search
 
 SHRINKS: Final = 60
 SAME: Final = 1e-7  # relative change of radius at which a ball has stopped shrinking

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from bladecad.arrays import Array, Vector, seal
 from bladecad.cam.places import Places
-from bladecad.deviation.skin import Skin, search
+from bladecad.deviation.nearest.skin import Skin, search
 from bladecad.errors import ToleranceError
 from bladecad.surface.blade import BladeSurface
 from bladecad.surface.loft import SIDES

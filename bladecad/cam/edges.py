@@ -8,8 +8,8 @@ from typing import final
 import numpy as np
 
 from bladecad.arrays import Vector, seal
-from bladecad.deviation.outlines import Formulas
-from bladecad.deviation.station import stations_at
+from bladecad.deviation.sectioning.outlines import Formulas
+from bladecad.deviation.sectioning.station import stations_at
 from bladecad.surface.blade import BladeSurface, EdgeKind
 from bladecad.surface.loft import SIDES
 

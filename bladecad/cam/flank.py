@@ -9,7 +9,7 @@ import numpy as np
 
 from bladecad.arrays import Array, Mask, Vector, seal
 from bladecad.cam.rulings import Rulings, V, side_skin
-from bladecad.deviation.skin import search
+from bladecad.deviation.nearest.skin import search
 from bladecad.splines import basis, clamped
 from bladecad.surface.blade import BladeSurface, SideName
 from bladecad.tolerance import EDGE_ZONE

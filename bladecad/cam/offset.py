@@ -10,7 +10,7 @@ from bladecad.cam.fitted import fitted
 from bladecad.cam.mitred import mitred
 from bladecad.cam.offset_error import distance_error
 from bladecad.cam.room import check_room
-from bladecad.deviation.nominal import nominal_of
+from bladecad.deviation.nearest.nominal import nominal_of
 from bladecad.errors import GeometryError
 from bladecad.surface.blade import BladeSurface
 from bladecad.surface.loft import Loft, first_breaks

@@ -8,8 +8,8 @@ import numpy as np
 
 from bladecad.arrays import Points, Vector
 from bladecad.cam.mitred import Mitred
-from bladecad.deviation.skin import Skin, search, skin_of
-from bladecad.deviation.squares import cut, joined
+from bladecad.deviation.nearest.skin import Skin, search, skin_of
+from bladecad.deviation.nearest.squares import cut, joined
 from bladecad.surface.blade import BladeSurface, SideName
 from bladecad.surface.loft import SIDES, graded
 from bladecad.surface.patch import SplinePatch

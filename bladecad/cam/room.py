@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 
 from bladecad.cam.places import Places, places
-from bladecad.deviation.skin import Skin, search
+from bladecad.deviation.nearest.skin import Skin, search
 from bladecad.errors import GeometryError, ToleranceError
 from bladecad.surface.blade import BladeSurface
 

@@ -8,8 +8,8 @@ from typing import Final, final
 import numpy as np
 
 from bladecad.arrays import Array, Vector
-from bladecad.deviation.skin import Found, Skin, search, skin_of
-from bladecad.deviation.squares import cut
+from bladecad.deviation.nearest.skin import Found, Skin, search, skin_of
+from bladecad.deviation.nearest.squares import cut
 from bladecad.surface.blade import BladeSurface, SideName, outward
 from bladecad.surface.loft import first_breaks
 

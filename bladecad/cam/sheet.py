@@ -16,7 +16,7 @@ from bladecad.cam.stacking import stacking_axis
 from bladecad.cam.stock import Stock, stock
 from bladecad.cam.thickness import Thickness, thickness
 from bladecad.data.sections import Machine
-from bladecad.deviation.nominal import nominal_of
+from bladecad.deviation.nearest.nominal import nominal_of
 from bladecad.errors import ToleranceError
 from bladecad.surface.blade import BladeSurface
 from bladecad.tolerance import EDGE_ZONE

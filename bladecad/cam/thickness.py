@@ -9,7 +9,7 @@ import numpy as np
 
 from bladecad.arrays import Array, Vector, seal
 from bladecad.cam.balls import balls
-from bladecad.deviation.skin import Skin
+from bladecad.deviation.nearest.skin import Skin
 from bladecad.surface.blade import BladeSurface, normals, principal_curvatures
 
 EDGE: Final = 0.05  # of the side

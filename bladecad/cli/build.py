@@ -114,7 +114,7 @@ def _report_failure(
     """Write what the closest fit reaches, if there is one."""
     from bladecad import pipeline
     from bladecad.export.files import export_report
-    from bladecad.export.report import fit_report
+    from bladecad.export.reports.report import fit_report
 
     if error.best is None:
         raise error

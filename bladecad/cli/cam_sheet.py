@@ -52,7 +52,7 @@ def cam_sheet(
     """
     log_to_stderr(verbose)
     from bladecad.cam.sheet import Cutting
-    from bladecad.export.cam_facts import cam_words
+    from bladecad.export.cad.cam_facts import cam_words
     from bladecad.export.stage import check_folder
     from bladecad.pipeline.blade_file import load_blade
     from bladecad.pipeline.build import Settings

@@ -136,7 +136,7 @@ def check(
     with progress(quiet=quiet) as tell:
         found = pipeline.check(nominal, scan, tolerance, settings, name=name, progress=tell)
         tell("report")
-        from bladecad.export.check_files import export_check
+        from bladecad.export.check.files import export_check
 
         files = export_check(found, output, csv=csv, png=png, force=force)
     check_summary.show(found, files, quiet=quiet)

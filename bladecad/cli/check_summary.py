@@ -11,10 +11,10 @@ import typer
 
 from bladecad.cli.summary import WIDTH
 from bladecad.cli.words import um
-from bladecad.export.worst_place import worst_place
+from bladecad.export.check.worst_place import worst_place
 
 if TYPE_CHECKING:
-    from bladecad.deviation.zones import ZoneResult
+    from bladecad.deviation.inspecting.zones import ZoneResult
     from bladecad.pipeline.check import Check
 
 SAID: Final = 3  # reasons on the last line; the report has all

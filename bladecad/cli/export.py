@@ -78,7 +78,7 @@ def export(
 def _check_format(output: Path, *, faces: str | None, schema: str | None, offset: float) -> None:
     """Refuse an unknown suffix, and options that the format knows nothing of."""
     from bladecad.errors import ExportError
-    from bladecad.export.cad_suffix import cad_format
+    from bladecad.export.cad.cad_suffix import cad_format
 
     stl = output.suffix.lower() == ".stl"
     if not stl and cad_format(output) != "STEP" and schema:
@@ -112,7 +112,7 @@ def _stl(
 ) -> tuple[list[str], bool]:
     """Write triangles; return what to say, and whether they are within the tolerance."""
     from bladecad.cam.variant import varied
-    from bladecad.export.stl import write_stl
+    from bladecad.export.cad.stl import write_stl
     from bladecad.surface.triangulate import triangulate
 
     tell("triangles")

@@ -42,8 +42,8 @@ def fit(
     from bladecad import pipeline
     from bladecad.curves.outliers import noise
     from bladecad.export.files import provenance
-    from bladecad.export.model_file import save
-    from bladecad.export.report import fit_report
+    from bladecad.export.model.model_file import save
+    from bladecad.export.reports.report import fit_report
     from bladecad.export.stage import check_file
 
     settings = pipeline.Settings(

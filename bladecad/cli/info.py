@@ -23,8 +23,8 @@ def info(
     """Tell what was read: format, units, edges, spacing, noise, and the numbers of each section."""
     log_to_stderr(verbose)
     from bladecad import pipeline
-    from bladecad.export.facts import as_dict
-    from bladecad.export.info import describe
+    from bladecad.export.reports.facts import as_dict
+    from bladecad.export.reports.info import describe
     from bladecad.export.text import to_json
 
     settings = pipeline.Settings(unit=units, axis=axis, le=le, suction=suction, edges=edges)

@@ -11,11 +11,11 @@ from typing import Any, Final
 
 from bladecad.data.sections import Sections
 from bladecad.errors import ExportError
-from bladecad.export.model_file import save
+from bladecad.export.cad.stl import write_stl
+from bladecad.export.model.model_file import save
 from bladecad.export.product import Product
-from bladecad.export.report import Checks, report, sha256
+from bladecad.export.reports.report import Checks, report, sha256
 from bladecad.export.stage import REPORT, staged
-from bladecad.export.stl import write_stl
 from bladecad.export.text import write_json
 from bladecad.fit.blade import BladeFit
 
@@ -105,8 +105,8 @@ def provenance(sections: Sections, fit: BladeFit) -> dict[str, Any]:
 def _write(product: Product, files: Mapping[str, Path], name: str) -> Checks:
     from bladecad.brep.confirm import confirm
     from bladecad.brep.reread import read_step
-    from bladecad.export.picture import draw_overview
-    from bladecad.export.step import write_step
+    from bladecad.export.cad.step import write_step
+    from bladecad.export.pictures.picture import draw_overview
 
     write_step(product.solid, files["step"], name=name)
     agreement = confirm(product.solid, read_step(files["step"]))
@@ -116,7 +116,7 @@ def _write(product: Product, files: Mapping[str, Path], name: str) -> Checks:
     save(product.surface, files["model"], provenance=origin, machine=machine)
     draw_overview(product, files["picture"], name=name)
     if product.scanned:
-        from bladecad.export.scan_picture import draw_scan
+        from bladecad.export.pictures.scan_picture import draw_scan
 
         draw_scan(product.scanned, files["scan"], name=name)
     return Checks(agreement, stl)

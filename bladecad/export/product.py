@@ -12,7 +12,7 @@ from bladecad.curves.odd import OddSection
 from bladecad.curves.outliers import Misprint
 from bladecad.curves.sides import BladeLines
 from bladecad.data.sections import Sections
-from bladecad.deviation.measure import Deviation
+from bladecad.deviation.inspecting.measure import Deviation
 from bladecad.fit.blade import BladeFit
 from bladecad.fit.left_out import LeftOut
 from bladecad.surface.blade import BladeSurface

@@ -7,7 +7,11 @@ from importlib import import_module
 from threading import Thread
 from typing import Final
 
-BODY: Final = ("bladecad.brep.solid", "bladecad.export.picture", "bladecad.export.step")
+BODY: Final = (
+    "bladecad.brep.solid",
+    "bladecad.export.pictures.picture",
+    "bladecad.export.cad.step",
+)
 
 
 def import_ahead(*modules: str) -> Thread:

@@ -50,8 +50,8 @@ def load_blade(
     """
     path = Path(path)
     if is_model(path):
-        from bladecad.export.model_file import load as read_model
-        from bladecad.export.model_file import load_machine
+        from bladecad.export.model.model_file import load as read_model
+        from bladecad.export.model.model_file import load_machine
 
         if settings.unit not in (None, "mm"):
             raise DataError(f"{path.name}: a model file is in mm, not in {settings.unit}")

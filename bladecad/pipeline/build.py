@@ -17,7 +17,7 @@ from bladecad.curves.repair import repaired
 from bladecad.curves.sides import BladeLines, Edges, split_sides
 from bladecad.data.read import read_sections
 from bladecad.data.sections import Axis, Sections, Unit
-from bladecad.deviation.measure import Deviation, measure
+from bladecad.deviation.inspecting.measure import Deviation, measure
 from bladecad.errors import ToleranceError
 from bladecad.fit.blade import BladeFit, ModelName, Order, SpectrumKind
 from bladecad.fit.left_out import LeftOut, Masks, left_out

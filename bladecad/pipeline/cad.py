@@ -19,8 +19,8 @@ from bladecad.surface.zones import Faces
 if TYPE_CHECKING:
     from bladecad.brep.joints import Joint
     from bladecad.brep.solid import Solid
-    from bladecad.export.cad_file import Written
-    from bladecad.export.step import Schema
+    from bladecad.export.cad.cad_file import Written
+    from bladecad.export.cad.step import Schema
 
 G1: Final = 0.1  # degrees; faces that meet at a round edge are held to it
 SMOOTH: Final = 0.1  # of the tolerance, for making sides meet C2; the loft keeps to 0.8 of it
@@ -136,7 +136,7 @@ def export_cad(
         As `write_cad`.
     """
     from bladecad.brep.joints import joints
-    from bladecad.export.cad_file import write_cad
+    from bladecad.export.cad.cad_file import write_cad
 
     progress("file")
     written = write_cad(blade.solid, path, name=name, schema=schema)

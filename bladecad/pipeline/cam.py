@@ -33,7 +33,7 @@ def write_cam_sheet(
         If the folder is in use or cannot be written; it is then as it was.
     """
     from bladecad.cam.sheet import cam_sheet
-    from bladecad.export.cam_files import export_cam
+    from bladecad.export.cad.cam_files import export_cam
 
     progress("rulings, cutters, stock")
     sheet = cam_sheet(blade.surface, cutting, machine=blade.machine)

@@ -17,9 +17,9 @@ from bladecad.data.scan import Scan
 from bladecad.data.scan_clean import cleaned
 from bladecad.data.sections import Source, Unit
 from bladecad.data.tolerance_file import read_tolerances
-from bladecad.deviation.inspection import Inspection, inspect
-from bladecad.deviation.pose import Freedom
-from bladecad.deviation.registration import Kind, register
+from bladecad.deviation.inspecting.inspection import Inspection, inspect
+from bladecad.deviation.registering.pose import Freedom
+from bladecad.deviation.registering.registration import Kind, register
 from bladecad.errors import DataError, ToleranceError
 from bladecad.pipeline.clock import Clock, Progress
 from bladecad.pipeline.nominal import (

@@ -16,14 +16,14 @@ from bladecad.data.scan_clean import cleaned
 from bladecad.data.scan_mesh import mesh_format, read_mesh
 from bladecad.data.sections import MM_PER, Axis, Unit
 from bladecad.data.slices import FACING, Triangles
-from bladecad.deviation.feet import Feet
-from bladecad.deviation.nominal import (
+from bladecad.deviation.nearest.feet import Feet
+from bladecad.deviation.nearest.nominal import (
     Nominal,
     nominal_of,
     nominal_of_mesh,
     nominal_of_patches,
 )
-from bladecad.deviation.referee import Referee, confirm, confirm_on
+from bladecad.deviation.nearest.referee import Referee, confirm, confirm_on
 from bladecad.errors import DataError, FitError
 from bladecad.fit.blade import BladeFit
 from bladecad.pipeline.build import Settings, fit, load, split, surface_of
@@ -145,7 +145,7 @@ def _start(path: Path) -> bytes:
 
 
 def _of_model(path: Path, settings: NominalSettings) -> LoadedNominal:
-    from bladecad.export.model_file import load as read_model
+    from bladecad.export.model.model_file import load as read_model
 
     if settings.unit not in (None, "mm"):
         raise DataError(f"{path.name}: a model file is in mm, not in {settings.unit}")

@@ -111,7 +111,7 @@ def write_passage(
 
 
 def _write_step(passage: Passage, stage: Path, name: str) -> dict[str, Any]:
-    from bladecad.export.passage_step import write_passage_step
+    from bladecad.export.cad.passage_step import write_passage_step
     from bladecad.passage.outlines import shape_of
 
     file = stage / f"{name}_passage.step"

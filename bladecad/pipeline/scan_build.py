@@ -13,7 +13,7 @@ from bladecad.curves.outliers import Misprint
 from bladecad.curves.sides import BladeLines
 from bladecad.data.scan import Scan
 from bladecad.data.sections import Sections
-from bladecad.deviation.measure import Deviation
+from bladecad.deviation.inspecting.measure import Deviation
 from bladecad.fit.blade import BladeFit
 from bladecad.fit.left_out import LeftOut
 from bladecad.pipeline.body import Body

@@ -12,7 +12,7 @@ from bladecad.curves.line import Line
 from bladecad.curves.outline import Outline, Track
 from bladecad.curves.sides import BladeLines
 from bladecad.data.sections import Axis, Sections
-from bladecad.deviation.feet import Feet
+from bladecad.deviation.nearest.feet import Feet
 from bladecad.fit.blade import BladeFit
 from bladecad.fit.sidefit import SideFit
 from bladecad.surface.blade import BladeSurface

@@ -8,9 +8,9 @@ from time import perf_counter
 import numpy as np
 import pytest
 
-from bladecad.deviation.nominal import nominal_of
-from bladecad.deviation.project import project
-from bladecad.export.model_file import save
+from bladecad.deviation.nearest.nominal import nominal_of
+from bladecad.deviation.nearest.project import project
+from bladecad.export.model.model_file import save
 from bladecad.pipeline import Settings, fit, load, split, surface_of
 from bladecad.surface.blade import outward
 from bladecad.surface.triangulate import triangulate
@@ -23,8 +23,8 @@ MEMORY = """
 import resource, sys
 import numpy as np
 import bladecad
-from bladecad.deviation.nominal import nominal_of
-from bladecad.deviation.project import project
+from bladecad.deviation.nearest.nominal import nominal_of
+from bladecad.deviation.nearest.project import project
 from bench_deviation import scan
 surface = bladecad.load(sys.argv[1])
 points = scan(surface, int(sys.argv[2]))[0]

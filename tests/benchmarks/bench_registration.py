@@ -7,11 +7,11 @@ from threadpoolctl import threadpool_limits
 
 from bladecad.curves.sides import split_sides
 from bladecad.data.synthetic import synthetic_blade
-from bladecad.deviation.nominal import nominal_of
-from bladecad.deviation.pose import moved, pose
-from bladecad.deviation.project import project
-from bladecad.deviation.registration import register
-from bladecad.deviation.section_fit import fits_of
+from bladecad.deviation.nearest.nominal import nominal_of
+from bladecad.deviation.nearest.project import project
+from bladecad.deviation.registering.pose import moved, pose
+from bladecad.deviation.registering.registration import register
+from bladecad.deviation.sectioning.section_fit import fits_of
 from bladecad.fit.blade import Order
 from bladecad.pipeline import Settings, fit, surface_of
 from bladecad.surface.loft import SIDES, graded

@@ -11,7 +11,7 @@ from bladecad.brep.patches import joined, read_faces
 from bladecad.brep.reread import read_step
 from bladecad.brep.solid import build_solid
 from bladecad.errors import ExportError
-from bladecad.export.step import write_step
+from bladecad.export.cad.step import write_step
 from tests.brep.blades import blade, volume
 
 

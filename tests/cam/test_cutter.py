@@ -15,8 +15,8 @@ from bladecad.cam.stacking import stacking_axis
 from bladecad.cam.stock import stock
 from bladecad.cam.thickness import thickness
 from bladecad.data.sections import Machine
-from bladecad.deviation.nominal import nominal_of
-from bladecad.deviation.skin import search
+from bladecad.deviation.nearest.nominal import nominal_of
+from bladecad.deviation.nearest.skin import search
 from bladecad.errors import ToleranceError
 from tests.cam.blades import good, tube, waisted
 from tests.surface.test_shapes import lens

@@ -6,7 +6,7 @@ import pytest
 from bladecad.cam.flank import flank
 from bladecad.cam.rulings import side_skin
 from bladecad.cam.variant import Variant, varied
-from bladecad.deviation.skin import search
+from bladecad.deviation.nearest.skin import search
 from tests.cam.blades import good, tube
 from tests.surface.test_shapes import lens
 

@@ -9,8 +9,8 @@ import trimesh
 from bladecad.cam.offset import offset_loft
 from bladecad.cam.parallel import Parallel, unit_derivatives
 from bladecad.cam.variant import Variant, varied
-from bladecad.deviation.nominal import nominal_of
-from bladecad.deviation.skin import search
+from bladecad.deviation.nearest.nominal import nominal_of
+from bladecad.deviation.nearest.skin import search
 from bladecad.errors import GeometryError, ToleranceError
 from bladecad.surface.blade import normals
 from bladecad.surface.loft import SIDES

@@ -6,8 +6,8 @@ import pytest
 from bladecad.cam.offset import offset_loft
 from bladecad.cam.sheet import cam_sheet
 from bladecad.cam.variant import Variant, varied
-from bladecad.deviation.nominal import nominal_of
-from bladecad.deviation.project import project
+from bladecad.deviation.nearest.nominal import nominal_of
+from bladecad.deviation.nearest.project import project
 from bladecad.errors import GeometryError
 from bladecad.surface.loft import SIDES
 

@@ -7,7 +7,7 @@ import gmsh
 import numpy as np
 import pytest
 
-from bladecad.export.step import write_step
+from bladecad.export.cad.step import write_step
 from bladecad.meshes.curvature import largest_curvature
 from tests.export.products import small
 

@@ -9,7 +9,7 @@ import typer
 from typer.testing import CliRunner
 
 from bladecad.cli.cam_sheet import cam_sheet
-from bladecad.export.model_file import save
+from bladecad.export.model.model_file import save
 from tests.cam.blades import good, tube
 
 FILES = {"cam.json", "cam.csv", "cam.png"}

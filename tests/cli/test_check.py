@@ -11,8 +11,8 @@ from typer.testing import CliRunner
 
 from bladecad.cli import app, options
 from bladecad.cli.check import parse_axis
-from bladecad.deviation.registration import Kind
-from bladecad.export.model_file import save
+from bladecad.deviation.registering.registration import Kind
+from bladecad.export.model.model_file import save
 from tests.export.products import small
 from tests.test_check import scanned
 

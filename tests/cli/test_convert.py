@@ -14,7 +14,7 @@ from bladecad.data.nominal_points import normals_of
 from bladecad.data.read import read_sections
 from bladecad.data.sections import Machine, Row
 from bladecad.data.text import read_text
-from bladecad.export.model_file import load, save
+from bladecad.export.model.model_file import load, save
 from bladecad.pipeline.blade_file import load_blade
 from bladecad.pipeline.build import Settings, split
 from bladecad.pipeline.build import load as read

@@ -14,10 +14,10 @@ from typer.testing import CliRunner
 from bladecad.brep.reread import CadFile, read_brep, read_iges, read_step
 from bladecad.cli.export import SCHEMAS, export
 from bladecad.cli.export_options import FacesChoice, SchemaChoice
-from bladecad.export.cad_suffix import CAD
-from bladecad.export.model_file import save
-from bladecad.export.step import Schema
-from bladecad.export.stl import read_stl
+from bladecad.export.cad.cad_suffix import CAD
+from bladecad.export.cad.step import Schema
+from bladecad.export.cad.stl import read_stl
+from bladecad.export.model.model_file import save
 from bladecad.fit.orbit import Orbit
 from bladecad.fit.sidefit import SideFit
 from bladecad.surface.blade import BladeSurface, EdgeKind

@@ -9,7 +9,7 @@ import typer
 from typer.testing import CliRunner
 
 from bladecad.cli.mesh import FormatChoice, mesh
-from bladecad.export.model_file import save
+from bladecad.export.model.model_file import save
 from bladecad.pipeline.mesh import MeshFormat
 from tests.meshes.blades import blade
 

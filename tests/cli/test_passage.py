@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 
 from bladecad.brep.reread import read_step
 from bladecad.cli.mesh import mesh
-from bladecad.export.model_file import save
+from bladecad.export.model.model_file import save
 from tests.passage.made import COUNT, HUB, SHROUD, row
 
 app = typer.Typer()

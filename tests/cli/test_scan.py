@@ -16,8 +16,8 @@ from typer.testing import CliRunner
 import bladecad
 from bladecad.cli import app
 from bladecad.data.write import WRITERS
-from bladecad.deviation.nominal import nominal_of
-from bladecad.deviation.project import project
+from bladecad.deviation.nearest.nominal import nominal_of
+from bladecad.deviation.nearest.project import project
 from bladecad.pipeline import scan as pipeline
 from bladecad.pipeline.scan_build import ScanBuild
 from bladecad.scans.moved import moved_points

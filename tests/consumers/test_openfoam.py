@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from bladecad.deviation.nominal import nominal_of
-from bladecad.deviation.project import project
+from bladecad.deviation.nearest.nominal import nominal_of
+from bladecad.deviation.nearest.project import project
 from bladecad.meshes.sizing import Sizing
 from bladecad.pipeline.blade_file import BladeFile, load_blade
 from bladecad.pipeline.build import Settings

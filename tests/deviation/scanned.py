@@ -11,7 +11,7 @@ from bladecad.curves.sides import split_sides
 from bladecad.data.scan import Scan
 from bladecad.data.sections import Source
 from bladecad.data.synthetic import synthetic_blade
-from bladecad.deviation.feet import Feet
+from bladecad.deviation.nearest.feet import Feet
 from bladecad.fit.blade import Order
 from bladecad.pipeline import Settings, fit, surface_of
 from bladecad.surface.blade import BladeSurface, outward

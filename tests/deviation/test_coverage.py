@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from bladecad.deviation.coverage import map_of
-from bladecad.deviation.nominal import nominal_of
+from bladecad.deviation.inspecting.coverage import map_of
+from bladecad.deviation.nearest.nominal import nominal_of
 from bladecad.surface.loft import SIDES
 from bladecad.tolerance import Tolerances, uniform
 from tests.deviation.scanned import blade, feet_at, placed, strewn

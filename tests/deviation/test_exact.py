@@ -7,11 +7,11 @@ from scipy.optimize import minimize
 
 from bladecad.curves.sides import split_sides
 from bladecad.data.synthetic import synthetic_blade
-from bladecad.deviation.nominal import nominal_of, nominal_of_mesh, nominal_of_patches
-from bladecad.deviation.project import OVERSHOOT, project
-from bladecad.deviation.skin import CHUNK, in_chunks
-from bladecad.deviation.squares import EXACT, cut
-from bladecad.deviation.triangles import search_triangles, triangle_skin
+from bladecad.deviation.nearest.nominal import nominal_of, nominal_of_mesh, nominal_of_patches
+from bladecad.deviation.nearest.project import OVERSHOOT, project
+from bladecad.deviation.nearest.skin import CHUNK, in_chunks
+from bladecad.deviation.nearest.squares import EXACT, cut
+from bladecad.deviation.nearest.triangles import search_triangles, triangle_skin
 from bladecad.errors import DataError, GeometryError
 from bladecad.fit.blade import Order
 from bladecad.pipeline import Settings, fit, surface_of

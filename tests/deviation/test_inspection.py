@@ -7,9 +7,9 @@ import pytest
 
 from bladecad.data.scan import Scan
 from bladecad.data.sections import Source
-from bladecad.deviation.inspection import inspect
-from bladecad.deviation.nominal import nominal_of
-from bladecad.deviation.referee import Referee
+from bladecad.deviation.inspecting.inspection import inspect
+from bladecad.deviation.nearest.nominal import nominal_of
+from bladecad.deviation.nearest.referee import Referee
 from bladecad.errors import DataError
 from bladecad.tolerance import Band, Tolerances, uniform
 from tests.deviation.scanned import Still, blade, scan_of, strewn

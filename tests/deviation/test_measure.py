@@ -9,10 +9,10 @@ import trimesh
 from bladecad.curves.sides import split_sides
 from bladecad.data.sections import Section, Sections, Source
 from bladecad.data.synthetic import synthetic_blade
-from bladecad.deviation.measure import EDGE_ZONE, measure
-from bladecad.deviation.nominal import nominal_of
-from bladecad.deviation.project import project
-from bladecad.deviation.squares import EXACT
+from bladecad.deviation.inspecting.measure import EDGE_ZONE, measure
+from bladecad.deviation.nearest.nominal import nominal_of
+from bladecad.deviation.nearest.project import project
+from bladecad.deviation.nearest.squares import EXACT
 from bladecad.fit.blade import Order
 from bladecad.pipeline import Settings, fit, surface_of
 from bladecad.surface.blade import normals

@@ -6,15 +6,15 @@ import pytest
 from bladecad.curves.properties import properties
 from bladecad.curves.sides import split_sides
 from bladecad.data.synthetic import synthetic_blade
-from bladecad.deviation.knots import Round
-from bladecad.deviation.moved import movement
-from bladecad.deviation.nominal import nominal_of
-from bladecad.deviation.numbers import formulas, numbers
-from bladecad.deviation.parameters import Number
-from bladecad.deviation.project import project
-from bladecad.deviation.sections import section_results
-from bladecad.deviation.station import stations_at
-from bladecad.deviation.trend import trend
+from bladecad.deviation.nearest.nominal import nominal_of
+from bladecad.deviation.nearest.project import project
+from bladecad.deviation.sectioning.knots import Round
+from bladecad.deviation.sectioning.moved import movement
+from bladecad.deviation.sectioning.numbers import formulas, numbers
+from bladecad.deviation.sectioning.parameters import Number
+from bladecad.deviation.sectioning.sections import section_results
+from bladecad.deviation.sectioning.station import stations_at
+from bladecad.deviation.sectioning.trend import trend
 from bladecad.tolerance import PARAMETERS, Band, Tolerances, uniform
 from tests.deviation.scanned import AXIS, blade, feet_at, moved, scan_of, strewn
 

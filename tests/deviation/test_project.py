@@ -7,10 +7,10 @@ import pytest
 
 from bladecad.curves.sides import split_sides
 from bladecad.data.synthetic import synthetic_blade
-from bladecad.deviation.measure import measure
-from bladecad.deviation.nominal import nominal_of
-from bladecad.deviation.project import project
-from bladecad.deviation.referee import confirm
+from bladecad.deviation.inspecting.measure import measure
+from bladecad.deviation.nearest.nominal import nominal_of
+from bladecad.deviation.nearest.project import project
+from bladecad.deviation.nearest.referee import confirm
 from bladecad.errors import GeometryError
 from bladecad.fit.blade import Order
 from bladecad.pipeline import Settings, fit, surface_of

@@ -7,9 +7,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
-from bladecad.deviation.nominal import nominal_of
-from bladecad.deviation.pose import FREEDOMS, free_of, motions, moved, pose, stepped
-from bladecad.deviation.registration import apply, register
+from bladecad.deviation.nearest.nominal import nominal_of
+from bladecad.deviation.registering.pose import FREEDOMS, free_of, motions, moved, pose, stepped
+from bladecad.deviation.registering.registration import apply, register
 from bladecad.errors import DataError, ToleranceError
 from bladecad.fit.sidefit import SideFit
 from bladecad.surface.loft import graded

@@ -5,8 +5,8 @@ import pytest
 from scipy.optimize import minimize
 
 from bladecad.data.profile import Profile
-from bladecad.deviation.outline_curve import OutlineCurve
-from bladecad.deviation.section_fit import Limits, fit_section, fits_of
+from bladecad.deviation.sectioning.outline_curve import OutlineCurve
+from bladecad.deviation.sectioning.section_fit import Limits, fit_section, fits_of
 from bladecad.errors import DataError, ToleranceError
 from bladecad.tolerance import Band
 

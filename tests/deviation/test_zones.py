@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from bladecad.deviation.coverage import map_of
-from bladecad.deviation.feet import FACES
-from bladecad.deviation.nominal import nominal_of
-from bladecad.deviation.worst import worst_places
-from bladecad.deviation.zones import ZONES, excess, zone_of, zone_results
+from bladecad.deviation.inspecting.coverage import map_of
+from bladecad.deviation.inspecting.worst import worst_places
+from bladecad.deviation.inspecting.zones import ZONES, excess, zone_of, zone_results
+from bladecad.deviation.nearest.feet import FACES
+from bladecad.deviation.nearest.nominal import nominal_of
 from bladecad.tolerance import Band, Tolerances, uniform
 from tests.deviation.scanned import blade, feet_at, placed, strewn
 

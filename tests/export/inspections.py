@@ -11,15 +11,15 @@ from bladecad.curves.sides import split_sides
 from bladecad.data.scan import Scan
 from bladecad.data.sections import Source
 from bladecad.data.synthetic import synthetic_blade
-from bladecad.deviation.coverage import Map
-from bladecad.deviation.feet import Feet
-from bladecad.deviation.inspection import Inspection, Worst
-from bladecad.deviation.nominal import nominal_of
-from bladecad.deviation.parameters import Number
-from bladecad.deviation.referee import Referee
-from bladecad.deviation.section_result import SectionResult
-from bladecad.deviation.zones import ZoneResult
-from bladecad.export.check_zones import bounds_at, zone_at
+from bladecad.deviation.inspecting.coverage import Map
+from bladecad.deviation.inspecting.inspection import Inspection, Worst
+from bladecad.deviation.inspecting.zones import ZoneResult
+from bladecad.deviation.nearest.feet import Feet
+from bladecad.deviation.nearest.nominal import nominal_of
+from bladecad.deviation.nearest.referee import Referee
+from bladecad.deviation.sectioning.parameters import Number
+from bladecad.deviation.sectioning.section_result import SectionResult
+from bladecad.export.check.zones import bounds_at, zone_at
 from bladecad.fit.blade import Order
 from bladecad.pipeline import Settings, fit, surface_of
 from bladecad.surface.blade import BladeSurface, normals, outward

@@ -17,10 +17,10 @@ from bladecad.brep.reread import read_brep, read_iges
 from bladecad.brep.solid import Solid, build_solid
 from bladecad.brep.statics import statics
 from bladecad.errors import ExportError
-from bladecad.export import cad_file
-from bladecad.export.cad_document import COLOURS
-from bladecad.export.cad_file import write_cad
-from bladecad.export.iges import ascii_name, write_iges
+from bladecad.export.cad import cad_file
+from bladecad.export.cad.cad_document import COLOURS
+from bladecad.export.cad.cad_file import write_cad
+from bladecad.export.cad.iges import ascii_name, write_iges
 from bladecad.surface.zones import Faces
 from tests.brep.blades import Ends, blade, volume
 

@@ -12,8 +12,8 @@ import pytest
 from bladecad.brep.faces import sample_surface
 from bladecad.brep.names import HUB, TIP
 from bladecad.brep.reread import read_step
-from bladecad.deviation.nominal import nominal_of
-from bladecad.deviation.project import project
+from bladecad.deviation.nearest.nominal import nominal_of
+from bladecad.deviation.nearest.project import project
 from bladecad.pipeline import Settings
 from bladecad.pipeline.blade_file import load_blade
 from bladecad.pipeline.cad import CadBlade, CadExport, CadSettings, cad_blade, export_cad

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bladecad.export.check_files import export_check
+from bladecad.export.check.files import export_check
 from tests.export.browser import (
     browser,
     click,

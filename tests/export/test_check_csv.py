@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bladecad.deviation.zones import ZONES
-from bladecad.export.check_csv import BEYOND, COLUMNS, chunks, nearest_section, write_csv
+from bladecad.deviation.inspecting.zones import ZONES
+from bladecad.export.check.csv import BEYOND, COLUMNS, chunks, nearest_section, write_csv
 from bladecad.export.digits import decimals, joined, words
 from tests.export.inspections import T, inspection
 

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 import trimesh
 
-from bladecad.deviation.coverage import Map
-from bladecad.deviation.zones import ZONES
-from bladecad.export.check_colours import MAP, colours, limit_of, line_share, round_up
-from bladecad.export.check_histogram import histogram
-from bladecad.export.check_map import MOST, bridged, coarser
-from bladecad.export.check_mesh import CAP, painted
-from bladecad.export.check_whiskers import PARTS, REACH, round_down, thinned, whiskers
+from bladecad.deviation.inspecting.coverage import Map
+from bladecad.deviation.inspecting.zones import ZONES
+from bladecad.export.check.colours import MAP, colours, limit_of, line_share, round_up
+from bladecad.export.check.histogram import histogram
+from bladecad.export.check.map import MOST, bridged, coarser
+from bladecad.export.check.mesh import CAP, painted
+from bladecad.export.check.whiskers import PARTS, REACH, round_down, thinned, whiskers
 from bladecad.surface.triangulate import triangulate
 from tests.export.inspections import blade, inspection
 

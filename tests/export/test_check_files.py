@@ -13,14 +13,14 @@ import pytest
 from matplotlib import rc_context
 
 from bladecad.errors import ExportError
-from bladecad.export import check_files
-from bladecad.export.check_colours import limit_of
-from bladecad.export.check_files import export_check
-from bladecad.export.check_page import plotly_js
-from bladecad.export.check_pictures import as_svg, slug
-from bladecad.export.check_plots import STYLE, section_figure, signed
-from bladecad.export.check_whiskers import whiskers
-from bladecad.export.check_words import band, headline, number, percent, rows_of, tidy
+from bladecad.export.check import files as check_files
+from bladecad.export.check.colours import limit_of
+from bladecad.export.check.files import export_check
+from bladecad.export.check.page import plotly_js
+from bladecad.export.check.pictures import as_svg, slug
+from bladecad.export.check.plots import STYLE, section_figure, signed
+from bladecad.export.check.whiskers import whiskers
+from bladecad.export.check.words import band, headline, number, percent, rows_of, tidy
 from bladecad.tolerance import uniform
 from tests.export.inspections import blade, bump, checked, inspection
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bladecad.export.check_fits import rotation_deg
-from bladecad.export.check_report import SCHEMA, check_report, plain
+from bladecad.export.check.fits import rotation_deg
+from bladecad.export.check.report import SCHEMA, check_report, plain
 from bladecad.export.text import to_json
 from bladecad.tolerance import Band
 from tests.export.inspections import T, checked, inspection

@@ -12,10 +12,11 @@ import pytest
 from bladecad.brep.confirm import confirm
 from bladecad.brep.reread import read_step
 from bladecad.errors import ExportError, GeometryError
-from bladecad.export import files, model_file
+from bladecad.export import files
+from bladecad.export.cad.stl import read_stl
 from bladecad.export.files import export_blade
-from bladecad.export.stl import read_stl
-from bladecad.export.view import view_of
+from bladecad.export.model import model_file
+from bladecad.export.pictures.view import view_of
 from tests.export.products import coarse, small
 
 

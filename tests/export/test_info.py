@@ -9,7 +9,7 @@ from bladecad.curves.sides import split_sides
 from bladecad.data.read import read_sections
 from bladecad.data.sections import Sections
 from bladecad.data.synthetic import synthetic_blade
-from bladecad.export.info import as_dict, describe
+from bladecad.export.reports.info import as_dict, describe
 
 
 def told(blade: Sections) -> str:

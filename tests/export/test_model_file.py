@@ -13,7 +13,7 @@ from scipy.linalg import expm
 import bladecad
 from bladecad.data.sections import Machine, Row
 from bladecad.errors import DataError, ExportError
-from bladecad.export.model_file import load, load_machine, save
+from bladecad.export.model.model_file import load, load_machine, save
 from bladecad.surface.blade import BladeSurface
 from tests.export.products import orbit, small, spectrum, surface
 

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from bladecad.brep.confirm import Agreement
+from bladecad.export.cad.stl import StlFile
 from bladecad.export.product import between_sections
-from bladecad.export.report import Checks, fit_report, report
-from bladecad.export.report_fit import eigenvalues
-from bladecad.export.report_solid import brep_distance, edge_angles
-from bladecad.export.stl import StlFile
+from bladecad.export.reports.report import Checks, fit_report, report
+from bladecad.export.reports.report_fit import eigenvalues
+from bladecad.export.reports.report_solid import brep_distance, edge_angles
 from bladecad.export.text import to_json
 from bladecad.fit.sidefit import SideFit
 from bladecad.surface.blade import BladeSurface

@@ -19,9 +19,9 @@ from bladecad.brep.reread import read_step
 from bladecad.brep.solid import Solid, build_solid
 from bladecad.brep.statics import statics
 from bladecad.errors import ExportError
-from bladecad.export import step
-from bladecad.export.cad_document import COLOURS
-from bladecad.export.step import Schema, write_step
+from bladecad.export.cad import step
+from bladecad.export.cad.cad_document import COLOURS
+from bladecad.export.cad.step import Schema, write_step
 from tests.brep.blades import Ends, blade, volume
 
 SHAPES: list[tuple[Ends, bool, bool]] = list(

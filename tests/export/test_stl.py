@@ -8,7 +8,7 @@ import pytest
 import trimesh
 
 from bladecad.errors import ExportError
-from bladecad.export.stl import read_stl, write_stl
+from bladecad.export.cad.stl import read_stl, write_stl
 from tests.export.products import small
 
 

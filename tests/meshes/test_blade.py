@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bladecad.deviation.nominal import nominal_of
-from bladecad.deviation.project import project
+from bladecad.deviation.nearest.nominal import nominal_of
+from bladecad.deviation.nearest.project import project
 from bladecad.errors import GeometryError, ToleranceError
 from bladecad.fit.sidefit import SideFit
 from bladecad.meshes.blade import mesh_blade

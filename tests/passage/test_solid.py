@@ -4,7 +4,7 @@ import pytest
 
 from bladecad.brep.reread import read_step
 from bladecad.errors import GeometryError
-from bladecad.export.passage_step import write_passage_step
+from bladecad.export.cad.passage_step import write_passage_step
 from bladecad.passage.outlines import longer, shape_of
 from bladecad.pipeline.passage import passage_of
 from bladecad.pipeline.passage_settings import PassageSettings

@@ -10,8 +10,8 @@ from bladecad.curves.sides import split_sides
 from bladecad.data.read_scan import read_scan
 from bladecad.data.scan import Scan
 from bladecad.data.sections import Source
-from bladecad.deviation.nominal import nominal_of
-from bladecad.deviation.project import project
+from bladecad.deviation.nearest.nominal import nominal_of
+from bladecad.deviation.nearest.project import project
 from bladecad.errors import DataError
 from bladecad.scans.finding.airfoil import find_airfoil
 from bladecad.scans.slicing.slices import slice_airfoil

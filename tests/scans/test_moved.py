@@ -8,8 +8,8 @@ from scipy.spatial.transform import Rotation
 
 from bladecad.curves.sides import split_sides
 from bladecad.data.synthetic import synthetic_blade
-from bladecad.deviation.nominal import nominal_of
-from bladecad.deviation.project import project
+from bladecad.deviation.nearest.nominal import nominal_of
+from bladecad.deviation.nearest.project import project
 from bladecad.fit.blade import BladeFit, Order
 from bladecad.fit.judge import Bench, judge
 from bladecad.fit.order import fit_blade

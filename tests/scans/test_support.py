@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from bladecad.deviation.project import project
+from bladecad.deviation.nearest.project import project
 from bladecad.scans.judging.support import find_gaps, support_of, supported
 from tests.scans.truth import inside, nominal_for, scan_of, truth_surface
 

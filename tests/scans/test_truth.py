@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bladecad.data.synthetic import profiles
-from bladecad.deviation.project import project
+from bladecad.deviation.nearest.project import project
 from bladecad.surface.blade import normals
 from tests.scans.root import Root
 from tests.scans.truth import (

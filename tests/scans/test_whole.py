@@ -7,8 +7,8 @@ import pytest
 
 from bladecad.curves.repair import repaired
 from bladecad.curves.sides import split_sides
-from bladecad.deviation.nominal import nominal_of
-from bladecad.deviation.project import project
+from bladecad.deviation.nearest.nominal import nominal_of
+from bladecad.deviation.nearest.project import project
 from bladecad.errors import DataError
 from bladecad.fit.joint import edge_conditions
 from bladecad.scans.finding.airfoil import find_airfoil

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from bladecad.deviation.feet import Feet
+from bladecad.deviation.nearest.feet import Feet
 from bladecad.scans.judging.support import Gap
 from bladecad.scans.judging.worst import worst_of_scan
 from tests.deviation.scanned import blade, feet_at, strewn

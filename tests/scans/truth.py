@@ -21,9 +21,9 @@ from bladecad.data.read import read_sections
 from bladecad.data.scan import Scan
 from bladecad.data.sections import Source
 from bladecad.data.synthetic import profiles
-from bladecad.deviation.newton import evaluate
-from bladecad.deviation.nominal import Nominal, nominal_of
-from bladecad.deviation.project import project
+from bladecad.deviation.nearest.newton import evaluate
+from bladecad.deviation.nearest.nominal import Nominal, nominal_of
+from bladecad.deviation.nearest.project import project
 from bladecad.fit.order import fit_blade
 from bladecad.surface.blade import BladeSurface
 from bladecad.surface.loft import SIDES, graded

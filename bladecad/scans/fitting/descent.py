@@ -11,9 +11,9 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from bladecad.arrays import Array, Mask, Points, Vector
-from bladecad.deviation.feet import Feet
-from bladecad.deviation.nominal import Nominal, nominal_of
-from bladecad.deviation.project import project
+from bladecad.deviation.nearest.feet import Feet
+from bladecad.deviation.nearest.nominal import Nominal, nominal_of
+from bladecad.deviation.nearest.project import project
 from bladecad.scans.fitting.freedom import Freedom, local_poles, moved
 from bladecad.scans.fitting.local import ORDER
 from bladecad.scans.fitting.neighbours import Scatter, of_the_airfoil, scatter

@@ -13,8 +13,8 @@ from threadpoolctl import threadpool_limits
 from bladecad.arrays import Lines, Points, Vector
 from bladecad.curves.repair import repaired
 from bladecad.curves.sides import BladeLines, split_sides
-from bladecad.deviation.nominal import Nominal
-from bladecad.deviation.project import project
+from bladecad.deviation.nearest.nominal import Nominal
+from bladecad.deviation.nearest.project import project
 from bladecad.errors import DataError, FitError
 from bladecad.fit.blade import BladeFit, Order
 from bladecad.fit.judge import SIDES, Bench, Errors, SideErrors, judge

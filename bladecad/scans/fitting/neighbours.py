@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bladecad.arrays import Mask, Vector
-from bladecad.deviation.feet import Feet
+from bladecad.deviation.nearest.feet import Feet
 from bladecad.scans.fitting.robust import MAD
 
 STRIPS: Final = 0.7  # of the usual spacing of points: width of the strips that are walked along

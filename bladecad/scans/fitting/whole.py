@@ -11,8 +11,8 @@ import numpy as np
 
 from bladecad.arrays import Points, Vector, seal
 from bladecad.curves.sides import BladeLines
-from bladecad.deviation.feet import Feet
-from bladecad.deviation.nominal import nominal_of
+from bladecad.deviation.nearest.feet import Feet
+from bladecad.deviation.nearest.nominal import nominal_of
 from bladecad.fit.blade import BladeFit, Order
 from bladecad.scans.fitting.descent import descend, standing
 from bladecad.scans.fitting.flows import errors_of, flows_of, sections_for

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
 from bladecad.arrays import Array, Points, Vector, seal
-from bladecad.deviation.feet import Feet
+from bladecad.deviation.nearest.feet import Feet
 from bladecad.surface.blade import BladeSurface, SideName
 
 NEIGHBOURS: Final = 8  # the circle round a point that reaches so many is 1.6 spacings wide

@@ -8,8 +8,8 @@ from typing import final
 import numpy as np
 
 from bladecad.arrays import Array, Mask, seal
-from bladecad.deviation.measure import Deviation, Row, row
-from bladecad.deviation.referee import confirm
+from bladecad.deviation.inspecting.measure import Deviation, Row, row
+from bladecad.deviation.nearest.referee import confirm
 from bladecad.scans.finding.airfoil import Airfoil
 from bladecad.scans.fitting.whole import WholeFit
 from bladecad.scans.judging.support import Gap

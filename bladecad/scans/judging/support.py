@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import label, maximum_filter
 
 from bladecad.arrays import Array, Mask, Points, Vector, seal
-from bladecad.deviation.feet import Feet
+from bladecad.deviation.nearest.feet import Feet
 from bladecad.scans.judging.cover import Cover, area_of, cover_of, nearest, tree_of
 from bladecad.surface.blade import BladeSurface, SideName
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bladecad.arrays import Array, Mask, Vector
-from bladecad.deviation.feet import Feet
+from bladecad.deviation.nearest.feet import Feet
 from bladecad.surface.blade import SideName
 
 FEWEST: Final = 30  # points that a cell is judged by

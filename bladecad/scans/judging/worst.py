@@ -9,9 +9,9 @@ from typing import Final, final
 import numpy as np
 
 from bladecad.arrays import Vector
-from bladecad.deviation.feet import Feet
-from bladecad.deviation.worst import Worst, worst_places
-from bladecad.deviation.zones import zone_of
+from bladecad.deviation.inspecting.worst import Worst, worst_places
+from bladecad.deviation.inspecting.zones import zone_of
+from bladecad.deviation.nearest.feet import Feet
 from bladecad.scans.judging.support import Gap
 from bladecad.scans.judging.systematic import LEVELS, Cells, cells_of
 from bladecad.tolerance import EDGE_ZONE, uniform

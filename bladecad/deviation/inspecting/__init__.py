@@ -1,0 +1,1 @@
+"""What a scan says of its nominal: coverage, zones, worst places, verdict."""

@@ -1,0 +1,1 @@
+"""Where the nearest place of a blade is: squares, triangles, feet, and the referee."""

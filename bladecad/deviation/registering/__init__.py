@@ -1,0 +1,1 @@
+"""The scan laid onto its nominal, and what that absorbed."""

@@ -1,0 +1,1 @@
+"""A blade for the eye."""

@@ -1,0 +1,1 @@
+"""What a blade has to say of itself, in words and numbers."""
