@@ -91,7 +91,7 @@ def spacing(k: Array, radius: float, scallop: float) -> Array:
         )
     k = np.maximum(k, -TIGHT / radius)
     q = np.sqrt(scallop * (2.0 * radius - scallop) / ((1.0 + k * radius) * (1.0 + k * scallop)))
-    half = 0.5 * k * q
+    half = np.clip(0.5 * k * q, -1.0, 1.0)  # beyond, the ball turns round in the hollow
     safe = np.where(np.abs(half) > 1e-8, half, 1.0)
     return np.asarray(2.0 * q * np.where(np.abs(half) > 1e-8, np.arcsin(half) / safe, 1.0))
 

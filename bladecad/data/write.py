@@ -144,6 +144,12 @@ def _keep_what_exists(path: Path, files: Sequence[Path], force: bool) -> None:
             f"{path.with_name(there[0])} exists and is kept as it is; name another file, or give "
             "--force to replace it"
         )
+    walls = f"{path.stem}_hub_shroud.csv"
+    if path.suffix.lower() == ".csv" and walls not in names and path.with_name(walls).exists():
+        raise ExportError(
+            f"{path.with_name(walls)} would be read with {path.name}, which has no walls; remove "
+            "it or name another file"
+        )
     folders = [name for name in there if path.with_name(name).is_dir()]
     if folders:
         raise ExportError(f"{path.with_name(folders[0])} is a folder; name a file in it")

@@ -64,7 +64,8 @@ def staged(
     Raises
     ------
     ExportError
-        As `check_folder`, and where a file cannot be written.
+        As `check_folder`, where a file cannot be written, and where the earlier report is of
+        another kind: what it vouches for is not what is replaced.
     """
     folder = Path(folder)
     check_folder(folder, force=force)
@@ -93,6 +94,7 @@ def _move(stage: Path, folder: Path, report: str) -> None:
         folder.parent.mkdir(parents=True, exist_ok=True)
         stage.rename(folder)
         return
+    _check_kind(folder / report, stage / report)
     for stale in _earlier(folder, report):
         stale.unlink(missing_ok=True)
     files = [file for file in stage.rglob("*") if file.is_file()]
@@ -100,6 +102,24 @@ def _move(stage: Path, folder: Path, report: str) -> None:
         target = folder / file.relative_to(stage)
         target.parent.mkdir(parents=True, exist_ok=True)
         file.replace(target)
+
+
+def _check_kind(earlier: Path, new: Path) -> None:
+    """Refuse to replace the report of a build by that of a check, and the like."""
+    before, after = _schema(earlier), _schema(new)
+    if before and after and before != after:
+        raise ExportError(
+            f"{earlier} is a {before}, and would be replaced by a {after}; name another folder"
+        )
+
+
+def _schema(report: Path) -> str | None:
+    """The kind of a report, without its version; None where it does not say."""
+    try:
+        said = json.loads(report.read_bytes())["schema"]
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+    return said.partition("/")[0] if isinstance(said, str) else None
 
 
 def _earlier(folder: Path, report: str) -> list[Path]:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final, final
 
+from bladecad.curves.outliers import noise
 from bladecad.data.sections import Machine, Sections
 from bladecad.errors import DataError
 from bladecad.pipeline.build import Settings, fit, load, split, surface_of
@@ -60,7 +61,8 @@ def load_blade(
         return BladeFile(path.stem, read_model(path), machine)
     progress("fit")
     sections, found, keep = load(path, settings)
-    fitted = fit(split(sections, settings, keep), settings, progress=progress)
+    lines = split(sections, settings, keep)
+    fitted = fit(lines, settings, noise(sections), progress)
     notes = (*sections.source.notes, *fitted.lines.notes)
     notes += (f"{len(found)} points set aside",) if found else ()
     surface = surface_of(fitted, settings.law)

@@ -18,12 +18,13 @@ from bladecad.surface.zones import Faces
 
 if TYPE_CHECKING:
     from bladecad.brep.joints import Joint
+    from bladecad.brep.reread import CadFile
     from bladecad.brep.solid import Solid
     from bladecad.export.cad.cad_file import Written
     from bladecad.export.cad.step import Schema
 
 G1: Final = 0.1  # degrees; faces that meet at a round edge are held to it
-SMOOTH: Final = 0.1  # of the tolerance, for making sides meet C2; the loft keeps to 0.8 of it
+SMOOTH: Final = 0.1  # of the tolerance, to make edges C2 and ends plane; the loft keeps to 0.8
 FOLD: Final = 0.01  # mm; sides may lie in each other as deep as the usual fit is exact
 
 
@@ -113,7 +114,11 @@ def cad_blade(
         lofted.suction,
         lofted.pressure,
         volume=volume(lofted.suction, lofted.pressure),
-        limits=Limits(fold=FOLD, smooth=SMOOTH * settings.tolerance),
+        limits=Limits(
+            fold=FOLD * max(settings.variant.scale, 1.0),
+            smooth=SMOOTH * settings.tolerance,
+            planar=min(Limits.planar, SMOOTH * settings.tolerance),
+        ),
         faces=settings.faces,
     )
     _check_smooth(joints(solid, solid.zones), made)
@@ -138,9 +143,14 @@ def export_cad(
     from bladecad.brep.joints import joints
     from bladecad.export.cad.cad_file import write_cad
 
+    found: list[tuple[float, tuple[Joint, ...]]] = []
+
+    def measure(file: CadFile) -> None:
+        found.append((_error(blade, file), joints(file, blade.solid.zones)))
+
     progress("file")
-    written = write_cad(blade.solid, path, name=name, schema=schema)
-    return CadExport(written, _error(blade, written), joints(written.file, blade.solid.zones))
+    written = write_cad(blade.solid, path, name=name, schema=schema, measure=measure)
+    return CadExport(written, *found[0])
 
 
 def _lofted(surface: BladeSurface, settings: CadSettings, progress: Progress) -> Loft:
@@ -156,7 +166,8 @@ def _lofted(surface: BladeSurface, settings: CadSettings, progress: Progress) ->
 def _check_smooth(found: tuple[Joint, ...], surface: BladeSurface) -> None:
     """Refuse an edge that should be round and has a corner."""
     for joint in found:
-        kind = surface.le if joint.edge == "leading" else surface.te
+        leads = joint.edge == "leading" or (joint.edge == "seam" and surface.le != "round")
+        kind = surface.le if leads else surface.te
         if kind == "round" and joint.angle > G1:
             raise GeometryError(
                 f"{' and '.join(joint.faces)} meet at {joint.angle:.3g} degrees along the "
@@ -164,7 +175,7 @@ def _check_smooth(found: tuple[Joint, ...], surface: BladeSurface) -> None:
             )
 
 
-def _error(blade: CadBlade, written: Written) -> float:
+def _error(blade: CadBlade, file: CadFile) -> float:
     """Measured against the surface; of an offset against its loft, whose own error is added."""
     from bladecad.brep.astray import Side, astray
 
@@ -173,6 +184,6 @@ def _error(blade: CadBlade, written: Written) -> float:
             "suction": blade.loft.suction,
             "pressure": blade.loft.pressure,
         }
-        return blade.loft.error + astray(written.file, blade.solid.zones, sides)
+        return blade.loft.error + astray(file, blade.solid.zones, sides)
     exact = {name: partial(blade.surface, name) for name in SIDES}
-    return astray(written.file, blade.solid.zones, exact)
+    return astray(file, blade.solid.zones, exact)

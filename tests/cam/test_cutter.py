@@ -176,3 +176,9 @@ def test_a_sheet_says_flank_milling_for_a_cone_and_point_milling_for_a_bow():
 def test_cutting_without_sense_is_refused(options):
     with pytest.raises(ToleranceError, match="give"):
         Cutting(**options)
+
+
+def test_a_coarse_scallop_in_a_tight_hollow_still_has_a_spacing():
+    found = spacing(np.array([-1.0, -1e3, 0.0, 1.0]), 3.0, 1.0)
+    assert np.isfinite(found).all()
+    assert (found > 0.0).all()

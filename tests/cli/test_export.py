@@ -158,6 +158,24 @@ def lens(blunt: float) -> BladeSurface:
     return BladeSurface(np.array([0.0, 1.0]), *sides, le="sharp", te=te)
 
 
+def test_one_face_all_round_begins_at_the_edge_that_is_sharp(tmp_path: Path) -> None:
+    """A drop, x = 20 (2t - t^2), y = +-8 t (1 - t): sharp at t = 0, round at t = 1."""
+    flow = Orbit(np.diag([1.0, 2.0], -1), np.array([1.0, 0.0, 0.0]))
+    sides = [
+        SideFit((flow,), np.array([[[0, 0, z], [40, 8 * y, 0], [-20, -8 * y, 0]]
+                                   for z in (0.0, 30.0)]))
+        for y in (1.0, -1.0)
+    ]  # fmt: skip
+    drop = BladeSurface(np.array([0.0, 1.0]), *sides, le="sharp", te="round")
+    save(drop, tmp_path / "drop.json")
+    code, out, err = run(tmp_path / "drop.json", "-o", tmp_path / "b.step", "--faces", 1)
+    assert (code, err) == (0, "")
+    assert "seam" in out
+    again = read_step(tmp_path / "b.step")
+    assert set(again.faces) == {"AIRFOIL", "HUB", "TIP"}
+    assert again.volume == pytest.approx(30.0 * 2.0 * 320.0 / 12.0, rel=1e-6)
+
+
 @pytest.mark.parametrize("blunt", [0.0, 0.5])
 def test_sharp_and_blunt_edges_stay_what_they_are(blunt: float, tmp_path: Path) -> None:
     save(lens(blunt), tmp_path / "lens.json")

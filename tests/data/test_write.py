@@ -141,3 +141,12 @@ def test_a_nominal_needs_normals(tmp_path: Path):
 def test_an_unknown_suffix_is_refused_with_the_known_ones(tmp_path: Path):
     with pytest.raises(ExportError, match=r'not written as "\.foo"; choose one of \.csv, .*\.nom$'):
         write_sections(synthetic_blade(2, 20), tmp_path / "blade.foo")
+
+
+def test_walls_of_an_earlier_blade_are_not_taken_for_those_of_a_new_one(tmp_path: Path):
+    walls = (np.array([[0.0, r], [50.0, r]]) for r in (100.0, 150.0))
+    blade = synthetic_blade()
+    write_sections(replace(blade, row=Row(None, *walls)), tmp_path / "b.csv")
+    with pytest.raises(ExportError, match=r"b_hub_shroud\.csv would be read with b\.csv"):
+        write_sections(replace(blade, row=Row()), tmp_path / "b.csv", force=True)
+    assert len(read_sections(tmp_path / "b.csv").row.hub) == 2

@@ -116,3 +116,27 @@ def test_files_are_kept_too(tmp_path: Path):
         check_file(tmp_path, force=True)
     with pytest.raises(ExportError, match="there is no folder"):
         check_file(tmp_path / "none" / "m.json")
+
+
+def test_a_report_of_another_kind_is_not_replaced_nor_what_it_names(tmp_path: Path):
+    folder = tmp_path / "out"
+    folder.mkdir()
+    said = {"schema": "bladecad-report/1", "files": [{"file": "blade.step"}]}
+    (folder / "report.json").write_text(json.dumps(said))
+    (folder / "blade.step").write_text("solid")
+    again = "is a bladecad-report, and would be replaced by a bladecad-check"
+    with pytest.raises(ExportError, match=again), staged(folder, force=True) as stage:
+        (stage / "report.json").write_text(json.dumps({"schema": "bladecad-check/1"}))
+    assert (folder / "blade.step").read_text() == "solid"
+    assert json.loads((folder / "report.json").read_text()) == said
+
+
+def test_files_under_another_report_are_left_alone(tmp_path: Path):
+    folder = tmp_path / "out"
+    folder.mkdir()
+    said = {"schema": "bladecad-report/1", "files": [{"file": "blade.step"}]}
+    (folder / "report.json").write_text(json.dumps(said))
+    (folder / "blade.step").write_text("solid")
+    with staged(folder, force=True, report="cam.json") as stage:
+        (stage / "cam.json").write_text(json.dumps({"schema": "bladecad-cam/1"}))
+    assert {p.name for p in folder.iterdir()} == {"report.json", "blade.step", "cam.json"}

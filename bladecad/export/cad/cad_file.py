@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -39,7 +39,12 @@ class Written:
 
 
 def write_cad(
-    solid: Solid, path: str | os.PathLike[str], *, name: str, schema: Schema = "AP242DIS"
+    solid: Solid,
+    path: str | os.PathLike[str],
+    *,
+    name: str,
+    schema: Schema = "AP242DIS",
+    measure: Callable[[CadFile], None] = lambda _: None,
 ) -> Written:
     """Write a blade as STEP, IGES or BREP, and return what was read back.
 
@@ -48,11 +53,13 @@ def write_cad(
     solid : Solid
     path : path
         .step, .stp, .igs, .iges or .brep. Replaced when it exists; written in a hidden folder
-        beside, read back, compared, and then moved: on any failure it is as it was.
+        beside, read back, compared, measured, and then moved: on any failure it is as it was.
     name : str
         Of the product; BREP has none.
     schema : {"AP242DIS", "AP214IS"}
         Of STEP.
+    measure : callable
+        Given what was read back, before the file is moved.
 
     Raises
     ------
@@ -73,6 +80,7 @@ def write_cad(
             write_brep(solid, file)
             again = read_brep(file, names=_in_order(solid))
         agreement = confirm(solid, again, distance=DISTANCE[kind])
+        measure(again)
         return Written(again, agreement, file.stat().st_size)
 
 

@@ -71,7 +71,7 @@ def cam_words(facts: dict[str, Any]) -> Iterator[tuple[str, str]]:
     ball = f"{1e3 * cut['scallop_mm']:.3g} um, ball of radius {cut['ball_radius_mm']:g} mm"
     for head, key in (("along chord", "along_chord"), ("along span", "along_span")):
         one = facts["passes"][key]
-        apart = f"{one['narrowest_mm']:.3g} to {one['widest_mm']:.3g} mm apart"
+        apart = f"{one['narrowest_mm']:.3g} to {one['widest_mm']:.3g} mm are allowed between"
         yield head, f"{one['count']} passes, {apart}, for scallops of {ball}"
     thick = facts["thickness"]
     yield (

@@ -50,7 +50,7 @@ def export_cam(
     from bladecad.export.cad.cam_picture import draw_cam
 
     facts = cam_facts(sheet, name)
-    with staged(folder, force=force) as stage:
+    with staged(folder, force=force, report=FILES["facts"]) as stage:
         write_json(facts, stage / FILES["facts"], digits=DIGITS)
         (stage / FILES["table"]).write_text(cam_csv(facts), encoding="utf-8")
         draw_cam(surface, sheet, stage / FILES["picture"], name=name)
