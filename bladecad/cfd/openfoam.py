@@ -138,6 +138,8 @@ def _words(
     place = inside
     if place is None:
         place = a_place_inside(mesh, 0.4 * cells.surface) if inner else low + 0.37 * cells.base
+    third = cells.base / 2.0**MOST_LEVELS  # a third of the finest cell off is on no cell's face
+    place = low + (np.floor((place - low) / third) + 1.0 / 3.0) * third
     if (abs(winding(mesh, place)) > 0.5) != inner:
         raise GeometryError("no place in the flow was found; ask for smaller cells")
     return {

@@ -91,7 +91,7 @@ def mesh(
         "inlet": inlet, "outlet": outlet,
     }  # fmt: skip
     sizes = {"size": size, "chord_error": chord_error, "growth": growth, "edge": edge_size}
-    settings = _settings({**domain, **sizes}) if passage or row else None
+    settings = _settings({**domain, **sizes, "unit": units}) if passage or row else None
     if settings is None:
         asked.refuse_alone({**domain, "step": step})
     check_folder(output, force=force)

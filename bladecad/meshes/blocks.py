@@ -156,6 +156,7 @@ def _side(surface: BladeSurface, i: int, X: Array, u: Vector, t: Vector) -> Bloc
 
 def _ruled(name: str, A: Array, B: Array, s: Vector, u: Vector, t: Vector) -> Block:
     """Rulings from A on the suction side, s = 0, to B on the pressure side, s = 1."""
-    X = (1.0 - s[:, None, None]) * A + s[:, None, None] * B
+    X = A + s[:, None, None] * (B - A)  # where A is B, bit by bit A
+    X[-1] = B
     shape = X.shape[:2]
     return Block(name, X, np.broadcast_to(u, shape), np.broadcast_to(t, shape), np.zeros(shape))

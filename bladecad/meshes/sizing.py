@@ -9,7 +9,7 @@ from typing import Final, final
 import numpy as np
 
 from bladecad.arrays import Array, Vector
-from bladecad.errors import ToleranceError
+from bladecad.errors import GeometryError, ToleranceError
 from bladecad.surface.blade import BladeSurface, normals
 from bladecad.surface.loft import SIDES, graded
 
@@ -17,6 +17,7 @@ ALONG_T: Final = 0.6  # share of the chord error that the step along the chord m
 TURN: Final = np.radians(20.0)  # of a section from one line to the next, at most
 ACROSS: Final = 25  # spans at which steps along the chord are judged
 DENSE: Final = 1601  # places along the chord
+MOST: Final = 2_000_000  # points of a side
 
 
 @final
@@ -94,6 +95,10 @@ def _gradated(t: Vector, h: Vector, slope: float) -> Vector:
 def _placed(t: Vector, density: Vector) -> Vector:
     """Places from 0 to 1 with no fewer steps per unit than the density."""
     mass = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]) * np.diff(t))])
+    if not mass[-1] <= MOST:
+        raise GeometryError(
+            f"{mass[-1]:.2g} lines along the span are asked, {MOST:,} at most; ask for larger"
+        )
     count = max(math.ceil(mass[-1]), 8)
     places = np.interp(np.linspace(0.0, mass[-1], count + 1), mass, t)
     places[[0, -1]] = 0.0, 1.0
@@ -118,7 +123,12 @@ def spanwise(surface: BladeSurface, t: Vector, sizing: Sizing) -> list[Vector]:
         bend = np.maximum(bend, np.abs(normal).max(axis=0))
     h = np.minimum(sizing.size, sizing.aspect * step)
     by_bend = np.sqrt(bend / (8.0 * (1.0 - ALONG_T) * sizing.chord_error))
-    count = np.ceil(np.maximum(length[-1] / h, by_bend)).astype(int)
+    number = np.ceil(np.maximum(length[-1] / h, by_bend))
+    if not number.sum() <= MOST:
+        raise GeometryError(
+            f"{number.sum():.2g} points of a side are asked, {MOST:,} at most; ask for larger sizes"
+        )
+    count = number.astype(int)
     return [even(s, u, max(int(n), 2)) for s, n in zip(length.T, np.maximum(count, 2), strict=True)]
 
 

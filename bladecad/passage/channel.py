@@ -70,6 +70,12 @@ class Channel:
             det = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
             sigma = sigma - (away[:, 0] * b[:, 1] - away[:, 1] * b[:, 0]) / det
             v = v - (a[:, 0] * away[:, 1] - a[:, 1] * away[:, 0]) / det
+        else:
+            k = int(np.argmax(np.linalg.norm(self(sigma, v) - zr, axis=1)))
+            raise GeometryError(
+                f"axial position {zr[k, 0]:.5g} mm, radius {zr[k, 1]:.5g} mm is not between hub, "
+                "shroud, inlet and outlet; give a larger --inlet or --outlet"
+            )
         return sigma, v
 
     @cached_property

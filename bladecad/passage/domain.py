@@ -114,6 +114,7 @@ def mesh_passage(
         missing = abs(mesh.volume / volume - 1.0)
         by_wall, by_side = (max(e / sizing.chord_error, missing / VOLUME) for e in errors)
         worst = max(by_wall, by_side)
+        _check_number(len(mesh.triangles), sizing)
         if worst <= 1.0 or worst > max(FAR_OFF, STUCK * before):
             break
         _check_number(len(mesh.triangles) * worst, sizing)

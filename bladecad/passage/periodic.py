@@ -91,10 +91,12 @@ def clearance(points: Points, camber: Camber, axis: int, angle: float, pitch: fl
     Raises
     ------
     GeometryError
-        If the blade and a periodic face cross.
+        If the blade and a periodic face cross, or it reaches beyond inlet or outlet.
     """
     zrt = to_cylinder(points, axis, angle)
-    away = zrt[:, 2] - camber(*camber.channel.locate(zrt[:, :2]))
+    sigma, v = camber.channel.locate(zrt[:, :2])
+    _check_between(zrt, sigma)
+    away = zrt[:, 2] - camber(sigma, v)
     free = zrt[:, 1] * (0.5 * pitch - np.abs(away))
     k = int(np.argmin(free))
     if free[k] <= 0.0:
@@ -104,3 +106,15 @@ def clearance(points: Points, camber: Camber, axis: int, angle: float, pitch: fl
             f"{np.degrees(pitch):.4g} degrees is too narrow for it; look at the blade count"
         )
     return float(free[k])
+
+
+def _check_between(zrt: Points, sigma: Vector) -> None:
+    for k, name, edge in (
+        (int(sigma.argmin()), "inlet", "leading"),
+        (int(sigma.argmax()), "outlet", "trailing"),
+    ):
+        if not 0.0 < sigma[k] < 3.0:
+            raise GeometryError(
+                f"the blade reaches beyond the {name} at axial position {zrt[k, 0]:.5g} mm, radius "
+                f"{zrt[k, 1]:.5g} mm, for its {edge} edge is bowed; give a larger --{name}"
+            )

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from bladecad.errors import GeometryError
 from bladecad.meshes.named import NamedMesh
 from bladecad.passage.cylinder import turned
 from bladecad.passage.domain import Passage
 
 PERIODIC = ("periodic_1", "periodic_2")
+LARGEST = 8_000_000  # triangles, some 2 GB as printed
 
 
 def full_row(passage: Passage) -> NamedMesh:
@@ -16,7 +18,18 @@ def full_row(passage: Passage) -> NamedMesh:
 
     Patches are those of the passage, all blades in one; what was periodic is gone: the copies
     share the vertices they met in.
+
+    Raises
+    ------
+    GeometryError
+        If that takes too many triangles.
     """
+    asked = passage.count * len(passage.mesh.triangles)
+    if asked > LARGEST:
+        raise GeometryError(
+            f"{passage.count} passages take {asked:,} triangles, {LARGEST:,} at most are made; ask "
+            "for a larger size"
+        )
     first, second = passage.twins.T
     X, count = passage.mesh.vertices, passage.count
     own = np.ones(len(X), dtype=bool)

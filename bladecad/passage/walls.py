@@ -119,7 +119,7 @@ def walls(hub: Array, shroud: Array) -> tuple[Wall, Wall]:
     """
     clean = [_checked(name, zr) for name, zr in (("hub", hub), ("shroud", shroud))]
     _check_order(*clean)
-    between = clean[1].mean(axis=0) - clean[0].mean(axis=0)
+    between = _middle(clean[1]) - _middle(clean[0])
     pair = [Wall("hub", clean[0], _left(clean[0], between))]
     return pair[0], Wall("shroud", clean[1], _left(clean[1], -between))
 
@@ -172,6 +172,12 @@ def _derivative(curve: BSpline) -> BSpline:
 def _along(zr: Array) -> bool:
     steps = np.diff(zr[:, 0])
     return bool(np.all(steps > 0) or np.all(steps < 0))
+
+
+def _middle(zr: Array) -> Vector:
+    """Centroid of a line: points may lie closer in a bend."""
+    length = np.linalg.norm(np.diff(zr, axis=0), axis=1)
+    return np.average(0.5 * (zr[1:] + zr[:-1]), axis=0, weights=length)
 
 
 def _left(zr: Array, towards: Vector) -> float:

@@ -44,6 +44,11 @@ class PassageSettings:
             if not 0.0 <= getattr(self, name) < math.inf:
                 said = name.replace("_", " ")
                 raise ToleranceError(f"a {said} of {getattr(self, name):g} mm is asked; 0 or more")
+        if self.tip_gap > 0.0 and self.hub_gap > 0.0:
+            raise ToleranceError(
+                f"a hub gap of {self.hub_gap:g} mm and a tip gap of {self.tip_gap:g} mm are asked; "
+                "a blade stands on one wall at least"
+            )
         for name in ("inlet", "outlet"):
             value = getattr(self, name)
             if value is not None and not 0.0 < value < math.inf:

@@ -102,6 +102,8 @@ def test_walls_and_blade_count_from_options_do_for_a_blade_alone(alone: Path, tm
         (("--passage", "--walls", "WALLS", "--blades", "24", "--size", "0.01"), "would take"),
         (("--passage", "--walls", "WALLS", "--blades", "24", "--inlet", "0.01"), "is too near it"),
         (("--passage", "--walls", "WALLS", "--blades", "24", "--tip-gap", "30"), "mm at most"),
+        (("--passage", "--tip-gap", "1", "--hub-gap", "1"), "stands on one wall at least"),
+        (("--passage", "--blades", "24", "--walls", "WALLS", "--edge-size", "1e-7"), "for larger"),
         (("--passage", "--walls", "AXIS", "--blades", "24"), "a radius of 0 mm"),
         (("--blades", "24"), "--blades is about the passage; give --passage or --row"),
         (("--step",), "--step is about the passage"),

@@ -10,6 +10,7 @@ from bladecad.meshes.sizing import Sizing
 from bladecad.surface.blade import principal_curvatures
 from tests.cam.blades import tube
 from tests.meshes.blades import blade
+from tests.passage.made import prism
 
 ASKED = Sizing(3.0, 0.02)
 
@@ -48,3 +49,12 @@ def test_the_curvature_of_a_tube_is_that_of_its_circle():
 def test_too_many_points_are_refused():
     with pytest.raises(GeometryError, match="points a side; ask for a larger one"):
         blade_blocks(blade(), Sizing(0.01, 0.02))
+
+
+@pytest.mark.parametrize("size", [0.6, 0.65, 0.8, 0.95])
+def test_hub_and_tip_end_in_equal_points_at_round_edges(size: float):
+    for block in blade_blocks(prism(), Sizing(size, 0.05)).blocks:
+        if block.name in ("blade_hub", "blade_tip"):
+            X = block.points
+            assert np.array_equal(X[:, 0], np.broadcast_to(X[0, 0], X[:, 0].shape))
+            assert np.array_equal(X[:, -1], np.broadcast_to(X[0, -1], X[:, -1].shape))

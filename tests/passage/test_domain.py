@@ -6,12 +6,14 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from bladecad.errors import DataError, GeometryError, ToleranceError
+from bladecad.fit.sidefit import SideFit
 from bladecad.meshes.named import NamedMesh
 from bladecad.passage.cylinder import to_cylinder
 from bladecad.passage.row import full_row
 from bladecad.pipeline.passage import passage_of
 from bladecad.pipeline.passage_settings import PassageSettings
-from tests.passage.made import COUNT, HUB, SHROUD, A, line, metal, prism, row
+from bladecad.surface.blade import BladeSurface
+from tests.passage.made import COUNT, HUB, SHROUD, A, line, metal, prism, row, standing
 
 COARSE = PassageSettings(inlet=20.0, outlet=25.0, size=5.0, chord_error=0.05)
 OUTER = {"inlet", "outlet", "hub", "shroud", "periodic_1", "periodic_2"}
@@ -161,3 +163,28 @@ def test_what_makes_no_passage_is_refused(blade, asked, error, said):
 def test_settings_that_make_no_sense_are_refused(asked):
     with pytest.raises(ToleranceError, match="asked"):
         PassageSettings(**asked)
+
+
+def bowed(by):
+    """The prism, its middle moved upstream."""
+    blade = row()
+    sides = []
+    for side in (blade.surface.suction, blade.surface.pressure):
+        middle = side.coefficients.mean(axis=0)
+        middle[2, 2] -= by
+        low, high = side.coefficients
+        sides.append(SideFit(side.bases, np.stack([low, middle, high])))
+    return standing(blade, surface=BladeSurface(np.array([0.0, 0.5, 1.0]), *sides))
+
+
+def test_a_blade_that_bows_out_of_the_inlet_is_refused():
+    found = passage_of(bowed(6.0), COARSE)
+    assert _winding(found.mesh, found.inside) == pytest.approx(1.0, abs=1e-6)
+    with pytest.raises(GeometryError, match=r"larger --inlet"):
+        passage_of(bowed(6.0), replace(COARSE, inlet=1.0))
+
+
+def test_a_row_of_more_triangles_than_anyone_writes_is_refused(monkeypatch):
+    monkeypatch.setattr("bladecad.passage.row.LARGEST", 1000)
+    with pytest.raises(GeometryError, match=r"24 passages take .* triangles, 1,000 at most"):
+        full_row(passage_about())

@@ -87,3 +87,17 @@ def test_walls_are_read_as_the_blade_reads_them(fixtures, shared_data):
 def test_a_file_without_walls_is_refused(fixtures):
     with pytest.raises(DataError, match="has no hub"):
         walls_of(fixtures / "broken" / "good.csv")
+
+
+def channel(legs: int, bend: int, radius: float) -> np.ndarray:
+    """From axial to radial: a quarter turn about (0, 150) and straight legs, 200 mm each."""
+    angle, way = np.linspace(0.0, 0.5 * np.pi, bend), np.linspace(0.0, 1.0, legs + 1)[:-1, None]
+    turn = np.column_stack([radius * np.sin(angle), 150.0 - radius * np.cos(angle)])
+    ahead, behind = turn[0] + (way - 1.0) * [200.0, 0.0], turn[-1] + (1.0 - way[::-1]) * [0.0, 200]
+    return np.concatenate([ahead, turn, behind])
+
+
+def test_the_fluid_is_between_the_walls_however_close_their_points_stand():
+    """Points that crowd in the shroud's bend draw its mean to the other side of the hub's."""
+    hub, shroud = walls(channel(10, 10, 100.0), channel(2, 30, 80.0))
+    assert (hub.side, shroud.side) == (1.0, -1.0)
