@@ -43,7 +43,8 @@ def test_a_bad_blade_fails_with_zone_section_size_place_and_report(tmp_path):
 
 def test_the_library_does_not_need_pytest():
     code = "import sys, bladecad.testing; assert 'pytest' not in sys.modules"
-    subprocess.run([sys.executable, "-c", code], check=True)
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
 
 
 def test_the_fixture_is_found_and_keeps_the_report_of_a_failing_blade(pytester, tmp_path):
