@@ -6,13 +6,12 @@ import logging
 from collections.abc import Callable
 from dataclasses import replace
 
-from threadpoolctl import threadpool_limits
-
 from bladecad.curves.sides import BladeLines
 from bladecad.errors import FitError
 from bladecad.fit.blade import BladeFit, Order, SpectrumKind
 from bladecad.fit.modal import Data, fit_order, prepare
 from bladecad.fit.segments import fit_segments
+from bladecad.one_thread import one_thread
 
 log = logging.getLogger(__name__)
 
@@ -64,7 +63,7 @@ def fit_blade(
     FitError
         If no order meets the tolerance; its `best` is the closest fit.
     """
-    with threadpool_limits(1):  # many small factorisations: threads only wait for each other
+    with one_thread():
         data = prepare(lines)
         if order is not None:
             return fit_order(data, order, tolerance, spectrum=spectrum)

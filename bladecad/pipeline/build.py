@@ -6,8 +6,6 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, final
 
-from threadpoolctl import threadpool_limits
-
 from bladecad.arrays import Vector
 from bladecad.curves.naming import Hand, Lead
 from bladecad.curves.odd import OddSection, odd_sections
@@ -25,6 +23,7 @@ from bladecad.fit.matched import fit_matched
 from bladecad.fit.modal import prepare
 from bladecad.fit.order import fit_blade, met
 from bladecad.fit.segments import fit_segments
+from bladecad.one_thread import one_thread
 from bladecad.pipeline.ahead import BODY, import_ahead
 from bladecad.pipeline.body import body_of
 from bladecad.pipeline.clock import Clock, Progress
@@ -203,7 +202,7 @@ def fit(
     progress: Progress = lambda _: None,
 ) -> BladeFit:
     """Fit the lines with the model of the settings; `scatter` is the noise of the points, mm."""
-    with threadpool_limits(1):
+    with one_thread():
         if settings.model == "modal":
             return fit_blade(
                 lines,

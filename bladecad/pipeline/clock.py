@@ -7,17 +7,14 @@ from contextlib import contextmanager
 from time import perf_counter
 from typing import final
 
-from threadpoolctl import threadpool_limits
+from bladecad.one_thread import one_thread
 
 Progress = Callable[[str], None]
 
 
 @final
 class Clock:
-    """Wall time of each step, told as it begins; each runs in one thread.
-
-    Many small factorisations and products: threads would only wait for each other.
-    """
+    """Wall time of each step, told as it begins; each runs in one thread."""
 
     def __init__(self, progress: Progress) -> None:
         self.progress = progress
@@ -28,6 +25,6 @@ class Clock:
         """Time one step."""
         self.progress(name)
         start = perf_counter()
-        with threadpool_limits(1):
+        with one_thread():
             yield
         self.seconds[name] = perf_counter() - start

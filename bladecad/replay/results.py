@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Final, final
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from bladecad.fit.blade import Order
+from bladecad.one_thread import one_thread
 from bladecad.pipeline import Settings
 from bladecad.replay.blades import Known, default_blade, lines_of, others
 from bladecad.replay.edge_modes import modal_fit
@@ -83,7 +83,7 @@ def replayed(
 def found(blade: Known, beside: Sequence[Known], progress: Progress = lambda _: None) -> Results:
     """Find all numbers: the studies of one blade, and the ladder on it and on some others."""
     progress(f"{blade.name}: the paper's fit")
-    with threadpool_limits(1), _two_processes() as pool:
+    with one_thread(), _two_processes() as pool:
         away = pool.submit(_moved, blade)
         steps = {b.name: pool.submit(_climbed, b) for b in (blade, *beside)}
         subjects = _subjects(blade)
@@ -110,12 +110,12 @@ def _two_processes() -> Iterator[ProcessPoolExecutor]:
 
 
 def _moved(blade: Known) -> Steps:
-    with threadpool_limits(1):
+    with one_thread():
         return [step for s in _subjects(blade).values() for step in moved(s)]
 
 
 def _climbed(blade: Known) -> Steps:
-    with threadpool_limits(1):
+    with one_thread():
         return [step for s in _subjects(blade).values() for step in climbed(s)]
 
 

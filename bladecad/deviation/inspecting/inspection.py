@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, final
 
 import numpy as np
 from numpy.typing import NDArray
-from threadpoolctl import threadpool_limits
 
 from bladecad.arrays import Points
 from bladecad.data.scan import Scan
@@ -25,6 +24,7 @@ from bladecad.deviation.sectioning.parameters import Number
 from bladecad.deviation.sectioning.section_result import SectionResult
 from bladecad.deviation.sectioning.sections import section_results
 from bladecad.errors import DataError
+from bladecad.one_thread import one_thread
 from bladecad.tolerance import Tolerances
 
 if TYPE_CHECKING:
@@ -133,7 +133,7 @@ def inspect(
     zones = zone_results(feet, zone, out > 0.0, map_, tolerances)
     worst = worst_places(feet, zone, out, named)
     clock.lap("zones")
-    with threadpool_limits(1):
+    with one_thread():
         sections = section_results(nominal, feet, named, tolerances, axis=axis)
     clock.lap("sections")
     beyond = int(np.count_nonzero(feet.rim))

@@ -7,11 +7,11 @@ from typing import Final, final
 
 import numpy as np
 from numpy.typing import NDArray
-from threadpoolctl import threadpool_limits
 
 from bladecad.arrays import Mask, Points, Vector, seal
 from bladecad.data.scan import Scan
 from bladecad.errors import DataError
+from bladecad.one_thread import one_thread
 from bladecad.scans.finding.evenly import skin
 from bladecad.scans.finding.height import Height
 from bladecad.scans.finding.located import Located, located
@@ -83,7 +83,7 @@ def find_airfoil(
     DataError
         If it is no blade, or not one; it tells why.
     """
-    with threadpool_limits(1):
+    with one_thread():
         alone, island = _alone(scan)
         points = skin(scan, ENOUGH, ~alone)
         refuse_few_or_flat(points)

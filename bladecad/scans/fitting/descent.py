@@ -8,12 +8,12 @@ from itertools import product
 from typing import Final, NamedTuple
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from bladecad.arrays import Array, Mask, Points, Vector
 from bladecad.deviation.nearest.feet import Feet
 from bladecad.deviation.nearest.nominal import Nominal, nominal_of
 from bladecad.deviation.nearest.project import project
+from bladecad.one_thread import one_thread
 from bladecad.scans.fitting.freedom import Freedom, local_poles, moved
 from bladecad.scans.fitting.local import ORDER
 from bladecad.scans.fitting.neighbours import Scatter, of_the_airfoil, scatter
@@ -80,7 +80,7 @@ def descend(
     with ThreadPoolExecutor(2) as both:
         counted = (feet.suction & (weight > 0), ~feet.suction & (weight > 0))
         suction, pressure = both.map(lambda which: _sums(free, feet, M, f, which), counted)
-    with threadpool_limits(1):  # small products: threads only wait for each other
+    with one_thread():
         y = best_move(free, (suction, pressure), prior, local_poles(surface, free))
     after = moved(surface, free, y)
     some = np.arange(0, len(points), max(len(points) // TOLD_BY, 1))

@@ -8,7 +8,6 @@ from dataclasses import replace
 from typing import Final
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from bladecad.arrays import Lines, Points, Vector
 from bladecad.curves.repair import repaired
@@ -19,6 +18,7 @@ from bladecad.errors import DataError, FitError
 from bladecad.fit.blade import BladeFit, Order
 from bladecad.fit.judge import SIDES, Bench, Errors, SideErrors, judge
 from bladecad.fit.order import fit_blade
+from bladecad.one_thread import one_thread
 from bladecad.scans.fitting.laid_on import sections_of
 from bladecad.scans.fitting.spline_surface import Smooth, stiffened
 from bladecad.surface.loft import graded
@@ -61,7 +61,7 @@ def flows_of(
     noise = smooth.scatter.noise
     close = max(min(max(SHARE * noise, FINEST), tolerance), CLOSEST * noise, EXACT)
     progress("fit the flows")
-    with threadpool_limits(1):
+    with one_thread():
         try:
             return fit_blade(lines, tolerance=close, order=order, noise=close, progress=progress)
         except FitError as error:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from bladecad.arrays import Points, Vector
 from bladecad.curves.plausible import first_crossing
 from bladecad.data.sections import Section, Sections, Source
 from bladecad.errors import DataError
+from bladecad.one_thread import one_thread
 from bladecad.scans.finding.airfoil import Airfoil
 from bladecad.scans.finding.evenly import skin
 from bladecad.scans.finding.skeleton import Skeleton, legendre, skeleton
@@ -51,7 +51,7 @@ def slice_airfoil(airfoil: Airfoil, count: int = 21) -> Sections:
     DataError
         If the points round a section are too few.
     """
-    with threadpool_limits(1):
+    with one_thread():
         points = skin(airfoil.scan, max(SPREAD, count * A_SECTION), ~airfoil.lonely, airfoil.taken)
         radius, middle = airfoil.height.middle(points)
         flat = airfoil.height.flat(points, radius, middle)
