@@ -54,9 +54,11 @@ def lonely(points: Points) -> tuple[Mask, Cells]:
     out = (held < SMALL * len(points))[island][number]
     keys, strides = _cells(points, PORE * usual)
     cells, which, count = np.unique(keys, return_inverse=True, return_counts=True)
-    thin = np.flatnonzero((count[which] <= FEW) & ~out)
-    if len(thin):
-        out[thin] = _apart(points, out, keys, cells, strides, thin)
+    few = count <= FEW
+    ordered = np.argsort(which)  # by cells: a tree of neighbours in memory is asked faster
+    near = ordered[(_about(cells, strides, few)[which] & ~out)[ordered]]
+    thin = near[few[which[near]]]
+    out[thin] = _apart(points, near, thin)
     return np.asarray(out), island[number]
 
 
@@ -71,20 +73,23 @@ def _islands(cells: Cells, count: Cells, strides: Cells) -> tuple[Cells, Cells]:
     return np.argsort(order)[island], held[order]
 
 
-def _apart(
-    points: Points, out: Mask, keys: Cells, cells: Cells, strides: Cells, thin: Cells
-) -> Mask:
-    """Which of the points in thin cells stand alone."""
-    shifts = np.array([np.dot(d, strides) for d in product((-1, 0, 1), repeat=3)])
-    wanted = np.unique((np.unique(keys[thin])[:, None] + shifts).ravel())
-    wanted = wanted[np.isin(wanted, cells)]
-    near = np.flatnonzero(np.isin(keys, wanted) & ~out)
+def _about(cells: Cells, strides: Cells, some: Mask) -> Mask:
+    """Which of the cells are some of them, or touch these."""
+    about = np.zeros(len(cells), bool)
+    for d in product((-1, 0, 1), repeat=3):
+        about[_beside(cells, strides, d, some)[1]] = True
+    return about
+
+
+def _apart(points: Points, near: Cells, thin: Cells) -> Mask:
+    """Which of the points in thin cells stand alone among those near."""
     if len(near) <= NEIGHBOURS:
         return np.ones(len(thin), bool)
-    tree = cKDTree(points[near])
-    own, beside = map(np.asarray, tree.query(points[thin], NEIGHBOURS + 1))
-    theirs = np.asarray(tree.query(points[near[beside[:, 1:].ravel()]], NEIGHBOURS + 1)[0])
-    usual = np.median(theirs[:, -1].reshape(len(thin), NEIGHBOURS), axis=1)
+    tree = cKDTree(points[near], balanced_tree=False, compact_nodes=False)
+    own, beside = map(np.asarray, tree.query(points[thin], NEIGHBOURS + 1, workers=-1))
+    asked, back = np.unique(beside[:, 1:], return_inverse=True)
+    theirs = np.asarray(tree.query(points[near[asked]], NEIGHBOURS + 1, workers=-1)[0])[:, -1]
+    usual = np.median(theirs[back].reshape(len(thin), NEIGHBOURS), axis=1)
     return np.asarray(own[:, -1] > FAR * np.maximum(usual, 1e-12))
 
 
@@ -99,9 +104,11 @@ def _cells(points: Points, edge: float) -> tuple[Cells, Cells]:
     return keys, strides
 
 
-def _beside(cells: Cells, strides: Cells, step: tuple[int, ...]) -> tuple[Cells, Cells]:
-    """Numbers of the cells that have a neighbour one step on, and of these."""
-    wanted = cells + np.dot(step, strides)
+def _beside(
+    cells: Cells, strides: Cells, step: tuple[int, ...], some: Mask | slice = slice(None)
+) -> tuple[Cells, Cells]:
+    """Numbers of the cells, or some of them, that have a neighbour one step on, and of these."""
+    wanted = cells[some] + np.dot(step, strides)
     at = np.minimum(np.searchsorted(cells, wanted), len(cells) - 1)
     found = cells[at] == wanted
     return np.flatnonzero(found), at[found]

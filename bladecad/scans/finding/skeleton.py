@@ -127,17 +127,17 @@ def _shaped(start: Skeleton, flat: Points) -> Skeleton:
     """Find camber and thickness by turns: which side a point is on, then both."""
     X, Y, chord = start.place(flat)
     X = np.clip(X, 0.0, 1.0)
-    camber = tensor(X, start.share(flat[:, 2]))
-    nose = np.sqrt(X * (1.0 - X))[:, None] * camber
-    coarse = camber[:, : 4 * (UP + 1)]
-    across = Y - coarse @ _least(coarse, Y, np.ones(len(Y)))
-    weight = np.ones(len(Y))
-    n = camber.shape[1]
+    C, nose = tensor(X, start.share(flat[:, 2])), np.sqrt(X * (1.0 - X))
+    coarse = C[: 4 * (UP + 1)]
+    across = Y - _least(coarse, Y) @ coarse
+    n, weight, A = len(C), np.ones(len(Y)), np.empty((2 * len(C), len(Y)))
     for k in range(ROUNDS):
-        A = np.hstack([camber, np.sign(across)[:, None] * nose])
-        c = _least(A, Y, weight)
-        across = Y - camber @ c[:n]
-        off = np.abs(Y - A @ c) * chord
+        root, side = np.sqrt(weight), np.sign(across) * nose
+        np.multiply(C, root, out=A[:n])
+        np.multiply(A[:n], side, out=A[n:])
+        c = _least(A, root * Y)
+        across = Y - c[:n] @ C
+        off = np.abs(across - side * (c[n:] @ C)) * chord
         usual = max(MAD * float(np.median(off)), 1e-12)
         if k:
             weight = 1.0 / (1.0 + (off / (CLEAR * usual)) ** 2)
@@ -153,9 +153,9 @@ def legendre(x: Vector, degree: int) -> Array:
 
 
 def tensor(X: Vector, share: Vector) -> Array:
-    """Products of polynomials over the chord and over the height, (k, 7 * 5)."""
-    A, B = legendre(2.0 * X - 1.0, ALONG), legendre(share, UP)
-    return np.asarray((A[:, :, None] * B[:, None, :]).reshape(len(A), -1))
+    """Products of polynomials over the chord and over the height, (7 * 5, k)."""
+    A, B = legendre(2.0 * X - 1.0, ALONG).T, legendre(share, UP).T
+    return np.multiply(A[:, None], B[None], order="C").reshape(-1, len(X))
 
 
 def robust(A: Array, y: Array, rounds: int = 8) -> Array:
@@ -172,7 +172,7 @@ def robust(A: Array, y: Array, rounds: int = 8) -> Array:
 
 def _both(X: Vector, share: Vector, c: Array) -> Vector:
     return np.asarray(
-        np.einsum("ki,ij,kj->k", legendre(2.0 * X - 1.0, ALONG), c, legendre(share, UP))
+        np.einsum("kj,kj->k", legendre(2.0 * X - 1.0, ALONG) @ c, legendre(share, UP))
     )
 
 
@@ -184,8 +184,8 @@ def _one_way(edges: Array) -> Array:
     return np.where(way[:, None, None] < 0.0, edges[:, ::-1], edges)
 
 
-def _least(A: Array, y: Vector, weight: Vector) -> Vector:
-    B = A * weight[:, None]
-    G = B.T @ A
+def _least(A: Array, y: Vector) -> Vector:
+    """Least squares of y = c A, a column of A for each point."""
+    G = A @ A.T
     G[np.diag_indices_from(G)] += RIDGE * np.trace(G) / len(G)
-    return np.asarray(np.linalg.solve(G, B.T @ y))
+    return np.asarray(np.linalg.solve(G, A @ y))

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bladecad.arrays import Array, Mask, Points, Vector, seal
+from bladecad.scans.finding.runs import Runs
 
 FEWEST: Final = 25  # points of a slab that ten coefficients are found from
 DEGREE: Final = 3  # of camber and thickness along the chord
@@ -16,6 +17,9 @@ SLENDER: Final = 0.3  # mean thickness over chord; turbines reach 0.2
 MISS: Final = 0.35  # of the thickness, rms: points that are no closed, slender loop
 LEAN: Final = 0.6  # points of one side more than of the other, over all
 STRAY: Final = 0.004  # of the points of a slab may lie beyond the edges
+NOTHING: Final = tuple(  # what a slab with too few points looks like
+    map(np.asarray, (1.0, 1.0, 9.0, np.zeros(2), np.zeros((2, 2)), 0.0))
+)
 PROBES: Final = np.linspace(0.025, 0.975, 20)  # over the chord
 
 
@@ -77,81 +81,69 @@ def slabs(flat: Points, borders: Vector) -> Slabs:
     """
     m = len(borders) - 1
     place = (flat[:, 2] - borders[0]) / (borders[-1] - borders[0]) * m
-    inside = (place >= 0.0) & (place < m)
-    flat, place = flat[inside], place[inside]
-    slab = place.astype(np.int64)
-    order = np.argsort(slab, kind="stable")
-    flat, slab, place = flat[order], slab[order], place[order]
-    n = np.bincount(slab, minlength=m)
-    ends = np.cumsum(n)
-    found = [
-        _slab(flat[e - k : e], 2.0 * (place[e - k : e] % 1.0) - 1.0)
-        for e, k in zip(ends, n, strict=True)
-    ]
-    chord, thick, miss, quality = np.array([f[0] for f in found]).reshape(m, 4).T
-    centre = np.array([f[1] for f in found]).reshape(m, 2)
-    edges = np.array([f[2] for f in found]).reshape(m, 2, 2)
-    return Slabs(borders, n.astype(float), chord, thick, miss, centre, edges, quality)
+    slab = np.where((place >= 0.0) & (place < m), place, m).astype(np.int64)
+    n = np.bincount(slab, minlength=m + 1)
+    full = np.append(n[:m] >= FEWEST, False)
+    ordered = np.argsort(slab, kind="stable")
+    ordered = ordered[full[slab[ordered]]]
+    found = [np.zeros((m, *of_one.shape)) + of_one for of_one in NOTHING]
+    if len(ordered):
+        looks = _looks(flat[ordered, :2], 2.0 * (place[ordered] % 1.0) - 1.0, Runs(n[full]))
+        for values, there in zip(found, looks, strict=True):
+            values[full[:m]] = there
+    return Slabs(borders, n[:m].astype(float), *found)
 
 
-Found = tuple[tuple[float, float, float, float], Vector, Array]
-NOTHING: Final[Found] = ((1.0, 1.0, 9.0, 0.0), np.zeros(2), np.zeros((2, 2)))
-
-
-def _slab(flat: Points, lift: Vector) -> Found:
-    """Chord, thickness, miss and quality of one slab; its centre; its two edges."""
-    if len(flat) < FEWEST:
-        return NOTHING
-    middle = flat[:, :2].mean(axis=0)
-    X = flat[:, :2] - middle
-    rows = np.linalg.eigh(X.T @ X)[1].T[::-1]
-    x, y = rows @ X.T
-    stray = int(STRAY * len(x))
-    ordered = np.partition(x, (stray, len(x) - 1 - stray))
-    low, high = float(ordered[stray]), float(ordered[-1 - stray])
-    if high - low <= 0.0:
-        return NOTHING
-    share = np.clip((x - low) / (high - low), 0.0, 1.0)
+def _looks(flat: Points, lift: Vector, runs: Runs) -> tuple[Array, ...]:
+    """Chord, thickness, miss, centre, edges, quality of every slab from its points, (m, ...)."""
+    middle = runs.mean(flat)
+    X = flat - runs.each(middle)
+    rows = np.linalg.eigh(runs.products(X))[1].swapaxes(1, 2)[:, ::-1]
+    x, y = np.einsum("kia,ka->ik", runs.each(rows), X)
+    low, high = np.array([_ends(part) for part in runs.parts(x)]).T
+    chord = np.where(high > low, high - low, 1.0)
+    share = np.clip((x - runs.each(low)) / runs.each(chord), 0.0, 1.0)
     cubic = powers(2.0 * share - 1.0, DEGREE)
     camber = np.hstack([cubic, lift[:, None] * cubic[:, :2]])
-    across = y - camber @ _solved(camber, y)
     nose = np.sqrt(share * (1.0 - share))[:, None] * cubic
+    n = camber.shape[1]
+    across = y - runs.times(camber, runs.solved(camber, y))
     for _ in range(2):
-        both = np.hstack([camber, np.sign(across)[:, None] * nose])
-        c = _solved(both, y)
-        across = y - camber @ c[: camber.shape[1]]
-    half = nose @ c[camber.shape[1] :]
-    thickness = 2.0 * np.sqrt(PROBES * (1.0 - PROBES)) * (_AT_PROBES @ c[camber.shape[1] :])
-    thick, chord = float(thickness.mean()), high - low
-    largest = float(np.abs(thickness).max())
-    off = np.minimum(np.abs(np.abs(across) - half), largest)
-    miss = float(np.sqrt(np.mean(off**2) / max(np.mean(across**2), 1e-300)))
-    lean = abs(float(np.sign(across).mean()))
-    if thickness.min() < 0.0 or not 0.0 < thick < SLENDER * chord:
-        quality = 0.0
-    else:
-        quality = max(0.0, 1.0 - miss / MISS) * max(0.0, 1.0 - lean / LEAN)
-    at = low + chord * float(np.sum(PROBES * thickness) / max(np.sum(thickness), 1e-300))
-    curve = _AT_PROBES @ c[: DEGREE + 1]
-    up = float(np.sum(curve * thickness) / max(np.sum(thickness), 1e-300))
-    ends = powers(np.array([-1.0, 1.0]), DEGREE) @ c[: DEGREE + 1]
-    edges = np.stack([middle + rows.T @ np.array(e) for e in ((low, ends[0]), (high, ends[1]))])
-    centre = middle + rows.T @ np.array([at, up]) if quality > 0.0 else middle
-    return (chord, abs(thick) + 1e-12, miss, quality), centre, edges
+        c = runs.solved(np.hstack([camber, np.sign(across)[:, None] * nose]), y)
+        across = y - runs.times(camber, c[:, :n])
+    thickness = 2.0 * np.sqrt(PROBES * (1.0 - PROBES)) * (c[:, n:] @ _AT_PROBES.T)
+    thick, largest = thickness.mean(axis=1), np.abs(thickness).max(axis=1)
+    off = np.minimum(np.abs(np.abs(across) - runs.times(nose, c[:, n:])), runs.each(largest))
+    miss = np.sqrt(runs.mean(off**2) / np.maximum(runs.mean(across**2), 1e-300))
+    lean = np.abs(runs.mean(np.sign(across)))
+    closed = (high > low) & (thickness.min(axis=1) >= 0.0) & (thick > 0.0)
+    quality = np.maximum(0.0, 1.0 - miss / MISS) * np.maximum(0.0, 1.0 - lean / LEAN)
+    quality[~closed | (thick >= SLENDER * chord)] = 0.0
+    weight = thickness / np.where(closed, thickness.sum(axis=1), 1.0)[:, None]
+    curve, ends = (c[:, : DEGREE + 1] @ at.T for at in (_AT_PROBES, _AT_ENDS))
+    area = np.stack([low + chord * (weight @ PROBES), (curve * weight).sum(axis=1)], axis=1)
+    area[quality == 0.0] = 0.0
+    edges = np.stack([np.stack([low, high], axis=1), ends], axis=2)
+    return (
+        chord, np.abs(thick) + 1e-12, miss, middle + np.einsum("ma,mab->mb", area, rows),
+        middle[:, None] + edges @ rows, quality,
+    )  # fmt: skip
+
+
+def _ends(x: Vector) -> tuple[float, float]:
+    """Where the chord begins and ends, but for a few points beyond."""
+    stray = int(STRAY * len(x))
+    ordered = np.partition(x, (stray, len(x) - 1 - stray))
+    return float(ordered[stray]), float(ordered[-1 - stray])
 
 
 def powers(x: Vector, degree: int) -> Array:
     """1, x, .., x^degree, (k, degree + 1)."""
-    return np.asarray(x[:, None] ** np.arange(degree + 1))
+    return np.vander(x, degree + 1, increasing=True)
 
 
 _AT_PROBES: Final = powers(2.0 * PROBES - 1.0, DEGREE)
-
-
-def _solved(A: Array, y: Vector) -> Vector:
-    G = A.T @ A
-    G[np.diag_indices_from(G)] += 1e-9 * np.trace(G) / len(G)
-    return np.asarray(np.linalg.solve(G, A.T @ y))
+_AT_ENDS: Final = powers(np.array([-1.0, 1.0]), DEGREE)
 
 
 def longest_run(links: Mask, weight: Vector) -> tuple[int, int]:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Final, final
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg import eigh, solve
 from scipy.sparse import csr_matrix
 
@@ -62,8 +63,10 @@ def smooth(w: Vector, lift: Vector, y: Vector, count: int, stiff: float = 1.0) -
     stiff : float
         Least weight of smoothness, times the usual.
     """
-    B, C = periodic(w, count), periodic(w, SLOPES)
-    A = _beside(B, csr_matrix(C.multiply(lift[:, None])))
+    (columns, B), (coarse, C) = _four(w, count), _four(w, SLOPES)
+    A = _rows(
+        np.hstack([columns, count + coarse]), np.hstack([B, lift[:, None] * C]), count + SLOPES
+    )
     penalty = np.zeros((A.shape[1],) * 2)
     penalty[:count, :count] = _roughness(count, ORDER) + TENSION * _roughness(count, 1)
     held = np.zeros_like(penalty)
@@ -81,6 +84,11 @@ def smooth(w: Vector, lift: Vector, y: Vector, count: int, stiff: float = 1.0) -
 
 def periodic(w: Vector, count: int) -> csr_matrix:
     """Uniform periodic cubic B-splines at w, (k, count), sparse."""
+    return _rows(*_four(w, count), count)
+
+
+def _four(w: Vector, count: int) -> tuple[NDArray[np.int64], Array]:
+    """Which of them live at w, and their values there, (k, 4)."""
     place = np.mod(w, 1.0) * count
     first = np.floor(place).astype(np.int64)
     s = place - first
@@ -90,16 +98,21 @@ def periodic(w: Vector, count: int) -> csr_matrix:
         )
         / 6.0
     )
-    columns = (first[:, None] + np.arange(-1, 3)) % count
-    rows = np.repeat(np.arange(len(w)), 4)
-    return csr_matrix((values.ravel(), (rows, columns.ravel())), shape=(len(w), count))
+    return (first[:, None] + np.arange(-1, 3)) % count, values
+
+
+def _rows(columns: NDArray[np.int64], values: Array, count: int) -> csr_matrix:
+    """Sparse matrix, (k, count), from the columns and values of its rows, (k, n) each."""
+    k, n = columns.shape
+    ends = np.arange(0, k * n + 1, n)
+    return csr_matrix((values.ravel(), columns.ravel(), ends), shape=(k, count))
 
 
 def _cross_validated(
     A: csr_matrix, y: Vector, weight: Vector, P: Array, held: Array, grid: Vector
 ) -> tuple[Vector, float, float]:
     """Penalised least squares whose weight of smoothness predicts left-out values best."""
-    W = csr_matrix(A.multiply(weight[:, None]))
+    W = csr_matrix((A.data * np.repeat(weight, np.diff(A.indptr)), A.indices, A.indptr), A.shape)
     G, r, yy = (A.T @ W).toarray(), np.asarray(W.T @ y), float(weight @ y**2)
     scale = np.trace(G) / np.trace(P)
     G += HELD * len(y) / SLOPES * held
@@ -121,9 +134,3 @@ def _roughness(count: int, order: int) -> Array:
     for _ in range(order):
         D = np.roll(D, -1, axis=0) - D
     return D.T @ D
-
-
-def _beside(A: csr_matrix, B: csr_matrix) -> csr_matrix:
-    from scipy.sparse import hstack
-
-    return csr_matrix(hstack([A, B]))
