@@ -15,24 +15,24 @@ RIDGE = 1e-9  # of the mean of the diagonal: a problem with too few places is so
 class Runs(NamedTuple):
     """Rows of an array that belong together, run by run.
 
-    count : (m,) int, rows of each, one at least
+    sizes : (m,) int, rows of each, one at least
     """
 
-    count: NDArray[np.int64]
+    sizes: NDArray[np.int64]
 
     def parts(self, rows: Array) -> list[Array]:
         """Return the rows of each run."""
-        ends = np.cumsum(self.count)
-        return [rows[end - k : end] for end, k in zip(ends, self.count, strict=True)]
+        ends = np.cumsum(self.sizes)
+        return [rows[end - k : end] for end, k in zip(ends, self.sizes, strict=True)]
 
     def each(self, values: Array) -> Array:
         """Return the value of its run for every row."""
-        return np.repeat(values, self.count, axis=0)
+        return np.repeat(values, self.sizes, axis=0)
 
     def mean(self, rows: Array) -> Array:
         """Mean of each run, (m, ...)."""
-        sums = np.add.reduceat(rows, np.cumsum(self.count) - self.count, axis=0)
-        return np.asarray((sums.T / self.count).T)
+        sums = np.add.reduceat(rows, np.cumsum(self.sizes) - self.sizes, axis=0)
+        return np.asarray((sums.T / self.sizes).T)
 
     def products(self, A: Array) -> Array:
         """A^T A of each run, (m, n, n)."""
