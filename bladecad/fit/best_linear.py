@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import qr
-from scipy.linalg.lapack import dtrtrs
+from scipy.linalg.lapack import dgeqrf, dorgqr, dtrtrs
 
 from bladecad.arrays import Array, Vector
-from bladecad.fit.spectrum import Spectrum, decay
+from bladecad.fit.spectrum import Spectrum
 
 RIDGE = 1e-8  # a coefficient counts as little as a misfit of this share of it
 SERIES = 1e-4  # |k| below which d/dk of a mode is taken from its series
+BLOCK = 64  # columns that LAPACK takes at once, at most
 
 
 class BestLinear(NamedTuple):
@@ -20,6 +20,7 @@ class BestLinear(NamedTuple):
 
     residual : (N + n, d) float; below the N of the samples the n of the ridge
     Q        : (N + n, n) float, orthonormal columns
+    Phi      : (N, n) float
     """
 
     spectrum: Spectrum
@@ -27,6 +28,7 @@ class BestLinear(NamedTuple):
     residual: Array
     rss: float
     Q: Array
+    Phi: Array
 
 
 def best_linear(spectrum: Spectrum, t: Vector, Y: Array) -> BestLinear:
@@ -37,11 +39,18 @@ def best_linear(spectrum: Spectrum, t: Vector, Y: Array) -> BestLinear:
     """
     Phi = spectrum(t)
     below = np.zeros((Phi.shape[1], Y.shape[1]))
-    Q, R = qr(np.concatenate([Phi, RIDGE * np.eye(len(below))]), mode="economic")
+    Q, R = _qr(np.concatenate([Phi, RIDGE * np.eye(len(below))]))
     QY = Q[: len(t)].T @ Y
     residual = np.asarray(np.concatenate([Y, below]) - Q @ QY)
     rss = float(np.vdot(residual, residual))
-    return BestLinear(spectrum, np.asarray(dtrtrs(R, QY)[0]), residual, rss, np.asarray(Q))
+    return BestLinear(spectrum, np.asarray(dtrtrs(R, QY)[0]), residual, rss, Q, Phi)
+
+
+def _qr(A: Array) -> tuple[Array, Array]:
+    """Q and, in its upper triangle, R; `scipy.linalg.qr` without what it asks and checks."""
+    n = A.shape[1]
+    R, tau, _, _ = dgeqrf(A, lwork=BLOCK * n)
+    return np.asarray(dorgqr(R, tau, lwork=BLOCK * n)[0]), np.asarray(R[:n])
 
 
 def normal_equations(best: BestLinear, t: Vector) -> tuple[Array, Vector]:
@@ -57,9 +66,9 @@ def normal_equations(best: BestLinear, t: Vector) -> tuple[Array, Vector]:
     Phi. Their product is formed first; products of each with itself would lose all digits, and
     J^T J come out with negative diagonals.
     """
-    spectrum, C, residual, _, Q = best
+    spectrum, C, residual, _, Q, Phi = best
     m = 2 * (len(spectrum.le) + len(spectrum.te))
-    dPhi = _rates(spectrum, t).reshape(m, len(t), 2)
+    dPhi = _rates(spectrum, t, Phi[:, spectrum.size - m :]).reshape(m, len(t), 2)
     below = np.zeros((m, spectrum.size, 2))
     U, E = np.linalg.qr(np.concatenate([dPhi, below], axis=1) - Q @ (Q[: len(t)].T @ dPhi))
     pairs = C[spectrum.size - m :].reshape(m // 2, 2, C.shape[1])
@@ -70,12 +79,12 @@ def normal_equations(best: BestLinear, t: Vector) -> tuple[Array, Vector]:
     return np.asarray(H), np.asarray(g)
 
 
-def _rates(spectrum: Spectrum, t: Vector) -> Array:
+def _rates(spectrum: Spectrum, t: Vector, modes: Array) -> Array:
     """Derivatives of every pair of modes by log a and by k, (pairs, 2, N, 2)."""
     le, te = spectrum.le, spectrum.te
     tau = np.concatenate([le[:, :1] * t, te[:, :1] * (1.0 - t)])
     k = np.concatenate([le[:, 1:], te[:, 1:]])
-    y1, y2 = decay(tau, k[:, 0])
+    y1, y2 = modes.T[::2], modes.T[1::2]
     large = np.abs(k) >= SERIES
     series = -(tau**3) * np.exp(-tau) * (1.0 / 6.0 - k * tau**2 / 60.0)
     dy2 = np.where(large, (tau * y1 - y2) / np.where(large, 2.0 * k, 1.0), series)

@@ -67,8 +67,10 @@ class Spectrum:
     def __call__(self, t: Vector, order: int = 0) -> Array:
         """State z(t), or its derivative of any order, (k, n): each family from its own end."""
         t = np.asarray(t, dtype=np.float64)
-        le, te = pairs(self.le, t, order), pairs(self.te, 1.0 - t, order) * (-1.0) ** order
-        return np.concatenate([self._core(t, order), *le, *te], axis=1)
+        at_le, modes = len(self.le), np.concatenate([self.le, self.te])
+        w = pairs(modes, np.repeat([t, 1.0 - t], [at_le, len(self.te)], axis=0), order)
+        w[at_le:] *= (-1.0) ** order
+        return np.concatenate([self._core(t, order), *w], axis=1)
 
     def _core(self, t: Vector, order: int) -> Array:
         if len(self.knots):
@@ -107,7 +109,7 @@ def pair(a: float, k: float, t: Vector, order: int = 0) -> Array:
 
 
 def pairs(modes: Array, t: Vector, order: int = 0) -> Array:
-    """Many pairs at once, a row (a, k) each, (m, len(t), 2)."""
+    """Many pairs at once, a row (a, k) each, t for all or a row each too, (m, len(t), 2)."""
     a, k = modes[:, :1], modes[:, 1]
     w = np.stack(decay(a * t, k), axis=-1)
     for _ in range(order):
