@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from bladecad.arrays import Array, Mask, Points, seal
 from bladecad.cfd.foam import foam_header
 from bladecad.cfd.stl_solids import DIGITS, PER_MM, StlUnit
-from bladecad.cfd.written import beside
 from bladecad.meshes.named import NamedMesh
+from bladecad.written import beside
 
 SHARP: Final = 30.0  # degrees between normals: OpenFOAM's includedAngle of 150
 Pairs: TypeAlias = NDArray[np.int64]  # (k, 2)

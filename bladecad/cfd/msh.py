@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from bladecad.cfd.written import beside
 from bladecad.meshes.named import NamedMesh
+from bladecad.written import beside
 
 TRIANGLE, SURFACE = 2, 2  # gmsh's element type, and dimension of a physical group
 

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from bladecad.arrays import Vector
-from bladecad.cfd.written import beside
 from bladecad.meshes.blocks import Block
+from bladecad.written import beside
 
 A_LINE = 3  # numbers
 

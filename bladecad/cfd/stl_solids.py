@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from bladecad.arrays import Array, Points
 from bladecad.cfd.fixed import Text, fixed, parsed, scaled
-from bladecad.cfd.written import beside
 from bladecad.errors import ExportError
 from bladecad.meshes.named import NamedMesh
 from bladecad.surface.ruled import Triangles
+from bladecad.written import beside
 
 StlUnit: TypeAlias = Literal["m", "mm"]
 PER_MM: Final[Mapping[StlUnit, float]] = {"m": 1e-3, "mm": 1.0}

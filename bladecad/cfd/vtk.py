@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bladecad.arrays import Points
-from bladecad.cfd.written import beside
 from bladecad.errors import ExportError
 from bladecad.meshes.blocks import Block
 from bladecad.meshes.named import NamedMesh
+from bladecad.written import beside
 
 Data = Mapping[str, NDArray[Any]]
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,7 +12,8 @@ from typing import final
 import numpy as np
 
 from bladecad.arrays import Array
-from bladecad.errors import DataError, ExportError
+from bladecad.errors import DataError
+from bladecad.written import beside
 
 _NUMBER = r"(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?"
 _RUN_TOGETHER = re.compile(rf"[+-]?{_NUMBER}(?:[+-]{_NUMBER})*")
@@ -60,13 +60,8 @@ def write_text(path: Path, text: str) -> None:
     ExportError
         If the folder is missing or cannot be written to.
     """
-    beside = path.with_name(f".{path.name}.part")
-    try:
-        beside.write_text(text, encoding="utf-8", newline="\n")
-        os.replace(beside, path)
-    except OSError as error:
-        beside.unlink(missing_ok=True)
-        raise ExportError(f"{path} cannot be written: {error.strerror}; choose another") from error
+    with beside(path) as file:
+        file.write_text(text, encoding="utf-8", newline="\n")
 
 
 def fields(line: str) -> list[str]:

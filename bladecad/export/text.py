@@ -6,13 +6,11 @@ import json
 import math
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from contextlib import suppress
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from bladecad.errors import ExportError
+from bladecad.written import beside
 
 
 def write_json(value: object, path: str | os.PathLike[str], *, digits: int = 17) -> None:
@@ -31,16 +29,8 @@ def write_json(value: object, path: str | os.PathLike[str], *, digits: int = 17)
     ExportError
         If the file cannot be written.
     """
-    path = Path(path)
-    beside = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        beside.write_text(to_json(value, digits=digits) + "\n", encoding="utf-8")
-        beside.replace(path)
-    except OSError as error:
-        raise ExportError(f"{path} cannot be written: {error.strerror}") from error
-    finally:
-        with suppress(OSError):
-            beside.unlink()
+    with beside(path) as file:
+        file.write_text(to_json(value, digits=digits) + "\n", encoding="utf-8")
 
 
 def to_json(value: object, *, digits: int = 17) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from contextlib import suppress
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any, Final, Literal, TypeAlias
@@ -21,6 +20,7 @@ from bladecad.brep.solid import Solid
 from bladecad.brep.statics import statics
 from bladecad.errors import ExportError
 from bladecad.export.cad.cad_document import document
+from bladecad.written import beside
 
 Schema: TypeAlias = Literal["AP242DIS", "AP214IS"]
 
@@ -68,16 +68,9 @@ def write_step(
     if not name.strip():
         raise ExportError("a STEP product needs a name; the kernel would give it its own")
     path = Path(path)
-    beside = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        with statics({**SETTINGS, "write.step.schema": schema}), kernel(f"writing {path.name}"):
-            _write(_transferred(document(solid, name, _directives), path.name), beside)
-        beside.replace(path)
-    except OSError as error:
-        raise ExportError(f"{path} cannot be written: {error.strerror}") from error
-    finally:
-        with suppress(OSError):
-            beside.unlink()
+    schemas = {**SETTINGS, "write.step.schema": schema}
+    with beside(path) as file, statics(schemas), kernel(f"writing {path.name}"):
+        _write(_transferred(document(solid, name, _directives), path.name), file)
 
 
 def _transferred(document: Any, title: str) -> STEPCAFControl_Writer:

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import os
-from contextlib import suppress
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, final
 
 from bladecad.errors import ExportError
 from bladecad.surface.triangulate import BladeMesh
+from bladecad.written import beside
 
 
 @final
@@ -48,19 +47,11 @@ def write_stl(mesh: BladeMesh, path: str | os.PathLike[str]) -> StlFile:
     """
     import trimesh
 
-    path = Path(path)
-    beside = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
+    with beside(path) as file:
         body: Any = trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False)
-        beside.write_bytes(body.export(file_type="stl"))
-        again = read_stl(beside)
+        file.write_bytes(body.export(file_type="stl"))
+        again = read_stl(file)
         _confirm(again, len(mesh.triangles))
-        beside.replace(path)
-    except OSError as error:
-        raise ExportError(f"{path} cannot be written: {error.strerror}") from error
-    finally:
-        with suppress(OSError):
-            beside.unlink()
     return again
 
 

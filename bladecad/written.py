@@ -25,7 +25,7 @@ def beside(path: str | os.PathLike[str]) -> Iterator[Path]:
         yield part
         part.replace(path)
     except OSError as error:
-        raise ExportError(f"{path} cannot be written: {error.strerror}") from error
+        raise ExportError(f"{path} cannot be written: {error.strerror}; choose another") from error
     finally:
         with suppress(OSError):
             part.unlink()
