@@ -11,6 +11,7 @@ from scipy.interpolate import CubicSpline
 
 from bladecad.arrays import Array, Points, Vector, seal
 
+STILL = 1e-8  # of the length; after a step as short, what Newton's method leaves is rounding
 GAUSS = np.polynomial.legendre.leggauss(8)  # |x'| of a cubic: smooth between points
 
 
@@ -88,5 +89,8 @@ class Line:
         w = w0 + (w1 - w0) * (s - ends[gap]) / (ends[gap + 1] - ends[gap])
         for _ in range(4):
             speed = np.linalg.norm(self.spline(w, 1), axis=-1)
-            w = np.clip(w - (self._run(w0, w) - (s - ends[gap])) / speed, w0, w1)
+            step = (self._run(w0, w) - (s - ends[gap])) / speed
+            w = np.clip(w - step, w0, w1)
+            if np.abs(step).max(initial=0.0) < STILL * self.length:
+                break
         return np.asarray(w)

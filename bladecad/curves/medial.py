@@ -58,7 +58,8 @@ def inscribed(loop: Points, tangents: Array) -> Medial:
     q = np.arange(len(loop))
     active = np.arange(len(loop))
     for _ in range(SHRINKS):
-        near = np.asarray(tree.query(loop[active] + r[active, None] * n_in[active])[1])
+        middle = loop[active] + r[active, None] * n_in[active]
+        near = np.asarray(tree.query(middle, workers=-1)[1])  # slow: all is as far from a middle
         d = loop[near] - loop[active]
         away = 2.0 * np.einsum("kd,kd->k", n_in[active], d)
         ball = np.einsum("kd,kd->k", d, d) / np.where(away > 0, away, np.inf)

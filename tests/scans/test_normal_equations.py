@@ -7,6 +7,7 @@ import pytest
 
 from bladecad.fit.joint import edge_conditions
 from bladecad.scans.fitting.freedom import Pair, freedom, local_poles, moved
+from bladecad.scans.fitting.kernels import blend
 from bladecad.scans.fitting.knots import breaks_along
 from bladecad.scans.fitting.laid_on import laid_on
 from bladecad.scans.fitting.local import Splines
@@ -57,6 +58,16 @@ def test_four_functions_are_all_that_live_at_a_place():
     for a in range(4):
         whole[np.arange(len(x)), first + a] = values[:, a]
     assert np.abs(whole - basis(splines.knots, 3, x)).max() < 1e-14
+
+
+def test_a_blend_of_four_by_four_is_that_of_all():
+    in_u, in_t = Splines.through(np.linspace(0.0, 1.0, 6)), Splines.on(np.linspace(0.0, 1.0, 8))
+    rng = np.random.default_rng(1)
+    (u, t), poles = rng.random((2, 300)), rng.standard_normal((in_u.size, in_t.size, 2))
+    found = np.zeros((300, 2))
+    blend(*in_u.four(u), *in_t.four(t), poles, found)
+    whole = np.einsum("pk,pl,kla->pa", in_u(u), in_t(t), poles)
+    np.testing.assert_allclose(found, whole, rtol=0.0, atol=1e-13)
 
 
 def test_sums_are_those_of_the_matrix_written_out(problem):

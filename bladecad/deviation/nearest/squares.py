@@ -113,8 +113,8 @@ def _checks(degree: int) -> Vector:
     return np.asarray(0.5 - 0.5 * np.cos(np.pi * (np.arange(degree) + 0.5) / degree))
 
 
-TO_U: Final = np.linalg.inv(np.vander(_nodes(P), increasing=True))
-TO_T: Final = np.linalg.inv(np.vander(_nodes(Q), increasing=True))
+TO_U: Final = np.asarray(np.linalg.inv(np.vander(_nodes(P), increasing=True)), np.float64)
+TO_T: Final = np.asarray(np.linalg.inv(np.vander(_nodes(Q), increasing=True)), np.float64)
 AT_U: Final = np.vander(_checks(P), P + 1, increasing=True)
 AT_T: Final = np.vander(_checks(Q), Q + 1, increasing=True)
 
@@ -134,9 +134,9 @@ def _sampled(chart: Chart, u: Vector, v: Vector, t: Vector, w: Vector) -> Array:
 def _interpolated(chart: Chart, u: Vector, t: Vector) -> Array:
     X = _sampled(chart, u, _nodes(P), t, _nodes(Q))
     origin = X[:, :, 0, 0]  # taken off, lest its digits drown those of the square
-    c = np.einsum("ia,jb,mnabx->mnijx", TO_U, TO_T, X - origin[:, :, None, None], optimize=True)
+    c = np.ascontiguousarray(_at(X - origin[:, :, None, None], TO_U, TO_T))
     c[:, :, 0, 0] += origin
-    return np.asarray(c)
+    return c
 
 
 def _off(chart: Chart, c: Array, u: Vector, t: Vector) -> tuple[Array, Array]:
@@ -145,35 +145,52 @@ def _off(chart: Chart, c: Array, u: Vector, t: Vector) -> tuple[Array, Array]:
     V, W = np.vander(v, increasing=True), np.vander(w, increasing=True)
     along_u = _sampled(chart, u, _checks(P), t, w) - _at(c, AT_U, W)
     along_t = _sampled(chart, u, v, t, _checks(Q)) - _at(c, V, AT_T)
-    off_u, off_t = (np.linalg.norm(r, axis=4).max(axis=(2, 3)) for r in (along_u, along_t))
+    off_u, off_t = (_lengths(r).max(axis=(2, 3)) for r in (along_u, along_t))
     return off_u, off_t
 
 
 def _at(c: Array, V: Array, W: Array) -> Array:
-    return np.asarray(np.einsum("ai,bj,mnijx->mnabx", V, W, c, optimize=True))
+    """V_ai W_bj c_mnijx, (m, n, a, b, 3), one product for all."""
+    m, n, i, j, x = c.shape
+    found = c.transpose(0, 1, 4, 2, 3).reshape(-1, i * j) @ np.kron(V, W).T
+    return found.reshape(m, n, x, len(V), len(W)).transpose(0, 1, 3, 4, 2)
 
 
 def _parts(c: Array, off_u: Array, off_t: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Into how many parts each step of u and t is cut."""
+    need_u, need_t = (off_u / EXACT) ** (1.0 / (P + 1)), (off_t / EXACT) ** (1.0 / (Q + 1))
+    if max(off_u.max(), off_t.max()) <= EXACT:  # before, the squares turn as they like
+        need_u, need_t = _bends(c)
+    worst_u, worst_t = need_u.max(axis=1), need_t.max(axis=0)
+    parts_u, parts_t = (
+        np.ceil(np.clip(worst, 1.0, 8.0) - 1e-9).astype(np.int64) for worst in (worst_u, worst_t)
+    )
+    return parts_u, parts_t
+
+
+def _bends(c: Array) -> tuple[Array, Array]:
+    """How wide each square is and how far it turns along u, and along t, 1 allowed, (m, n) each."""
     V, W = (np.vander([0.0, 0.5, 1.0], k + 1, increasing=True) for k in (P, Q))
     Vd, Wd = (np.array([[i * x ** max(i - 1, 0) for i in range(k + 1)] for x in (0.0, 0.5, 1.0)])
               for k in (P, Q))  # fmt: skip
     X = _at(c, V, W)
     N = np.cross(_at(c, Vd, W), _at(c, V, Wd))
-    size = np.linalg.norm(N, axis=4, keepdims=True)
+    size = _lengths(N)[..., None]
     seen = size > SLIGHT * size.max()  # a ruled face folds flat where it ends in an edge
     N = np.where(seen, N / np.where(seen, size, 1.0), np.nan)
-    follows = max(off_u.max(), off_t.max()) <= EXACT  # before, the squares turn as they like
-    parts = []
-    for axis, off, degree in ((2, off_u, P), (3, off_t, Q)):
-        need = (off / EXACT) ** (1.0 / (degree + 1))
-        if follows:
-            wide = np.linalg.norm(np.diff(X, axis=axis), axis=4).sum(axis=axis).max(axis=2)
-            turns = np.linalg.norm(np.nan_to_num(np.diff(N, axis=axis)), axis=4)
-            need = np.maximum(wide / (WIDE * _size(X)), turns.sum(axis=axis).max(axis=2) / TURN)
-        worst = np.clip(need.max(axis=3 - axis), 1.0, 8.0)
-        parts.append(np.ceil(worst - 1e-9).astype(np.int64))
-    return parts[0], parts[1]
+    need = []
+    for axis in (2, 3):
+        wide, turns = (
+            _lengths(np.nan_to_num(np.diff(A, axis=axis))).sum(axis=axis).max(axis=2)
+            for A in (X, N)
+        )
+        need.append(np.maximum(wide / (WIDE * _size(X)), turns / TURN))
+    return need[0], need[1]
+
+
+def _lengths(v: Array) -> Array:
+    """Lengths of vectors, (m, n, a, b, 3), as `np.linalg.norm` finds them, but sooner."""
+    return np.asarray(np.sqrt(np.einsum("mnabx,mnabx->mnab", v, v)))
 
 
 def _size(X: Array) -> float:

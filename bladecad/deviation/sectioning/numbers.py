@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Final, cast
 
 import numpy as np
-from scipy.stats import t as student
+from scipy.special import stdtrit
 
 from bladecad.arrays import Array, Mask
 from bladecad.deviation.sectioning.loops import Indices
@@ -136,7 +136,7 @@ def _on(trend: Trend, station: Station, where: Mask) -> tuple[Array, float, floa
     if trend.round is None or not there.any():
         return np.zeros(0), 0.0, 0.0
     acting = int(np.count_nonzero(np.abs(trend.rows[there]).max(axis=0) > 0))
-    quantile = student.ppf(1.0 - 0.025 / acting, max(trend.freedom, 1))
+    quantile = stdtrit(max(trend.freedom, 1), 1.0 - 0.025 / acting)
     return trend.deviation[there], float(quantile * trend.sigma[there].max()), share
 
 

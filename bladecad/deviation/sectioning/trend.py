@@ -8,7 +8,7 @@ from typing import Final, final
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import t as student
+from scipy.special import stdtrit
 
 from bladecad.arrays import Array, Mask, Vector, seal
 from bladecad.deviation.nearest.feet import FACES, Feet
@@ -63,7 +63,7 @@ class Trend:
     @cached_property
     def quantile(self) -> float:
         """Half width of the 95 % interval over the standard deviation, by Student's t."""
-        return float(student.ppf(0.975, max(self.freedom, 1)))
+        return float(stdtrit(max(self.freedom, 1), 0.975))
 
     @cached_property
     def deviation(self) -> Vector:

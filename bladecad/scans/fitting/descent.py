@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
-from itertools import product
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -15,7 +14,6 @@ from bladecad.deviation.nearest.nominal import Nominal, nominal_of
 from bladecad.deviation.nearest.project import project
 from bladecad.one_thread import one_thread
 from bladecad.scans.fitting.freedom import Freedom, local_poles, moved
-from bladecad.scans.fitting.local import ORDER
 from bladecad.scans.fitting.neighbours import Scatter, of_the_airfoil, scatter
 from bladecad.scans.fitting.normal import Normal, accumulate
 from bladecad.scans.fitting.prior import Roughness
@@ -119,10 +117,10 @@ def _left(free: Freedom, y: Array, feet: Feet) -> Feet:
 
 def _at(free: Freedom, poles: Array, u: Vector, t: Vector) -> Array:
     """The move at places (u_k, t_k), (k, 2), mm."""
-    (i, B), (j, M) = free.in_u.four(u), free.in_t.four(t)
+    from bladecad.scans.fitting.kernels import blend
+
     found = np.zeros((len(u), 2))
-    for a, b in product(range(ORDER), range(ORDER)):
-        found += (B[:, a] * M[:, b])[:, None] * poles[i + a, j + b]
+    blend(*free.in_u.four(u), *free.in_t.four(t), poles, found)
     return found
 
 

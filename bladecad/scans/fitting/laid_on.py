@@ -11,6 +11,7 @@ from bladecad.arrays import Vector
 from bladecad.curves.sides import BladeLines
 from bladecad.data.sections import Section, Sections, Source
 from bladecad.fit.joint import edge_conditions, unit_rows
+from bladecad.fit.samples import by_section
 from bladecad.fit.sidefit import Basis, SideFit
 from bladecad.scans.fitting.local import Splines
 from bladecad.surface.blade import BladeSurface
@@ -24,10 +25,8 @@ PER_SPAN: Final = 2  # points of a section cut from a surface, a span of its spl
 def through(lines: BladeLines) -> BladeSurface:
     """Return a surface of splines that follows lines; its sides are not yet joined."""
     t, basis = graded(PLACES), Splines.on(graded(SPANS + 1))
-    Phi = basis(t)
-    sides = [
-        SideFit((basis,), np.array([lstsq(Phi, x)[0] for x in lines.sample(s, t)])) for s in SIDES
-    ]
+    columns = [lines.sample(s, t).transpose(1, 0, 2).reshape(len(t), -1) for s in SIDES]
+    sides = [SideFit((basis,), by_section(lstsq(basis(t), Y)[0])) for Y in columns]
     return BladeSurface(lines.span, sides[0], sides[1], "spline", lines.le, lines.te)
 
 
@@ -48,8 +47,8 @@ def laid_on(surface: BladeSurface, bases: tuple[Basis, Basis], nodes: Vector) ->
     scale = 1.0 / np.linalg.norm(Phi, axis=0)
     B = unit_rows(edge_conditions(S, P, surface.le, surface.te) * scale)
     N = null_space(B) if len(B) else np.eye(len(scale))
-    C = scale[:, None] * (N @ lstsq((Phi * scale) @ N, np.concatenate(curves), cond=1e-10)[0])
-    C = C.reshape(len(C), len(nodes), 3).transpose(1, 0, 2)
+    Y = N @ lstsq((Phi * scale) @ N, np.concatenate(curves), cond=1e-10)[0]
+    C = by_section(scale[:, None] * Y)
     sides = SideFit((S,), C[:, : S.size]), SideFit((P,), C[:, S.size :])
     return BladeSurface(nodes, *sides, "spline", surface.le, surface.te)
 

@@ -50,24 +50,15 @@ class Splines:
         """Value or derivative of all of them, (len(t), size)."""
         return basis(self.knots, DEGREE, np.asarray(t, dtype=np.float64), order)
 
-    def four(self, x: Vector) -> tuple[NDArray[np.intp], Array]:
+    def four(self, x: Vector) -> tuple[NDArray[np.int64], Array]:
         """Number of the first function that lives at each place, and the values of the four.
 
         Returns
         -------
         (k,) int and (k, 4) float
-            The triangle of Cox and de Boor, for all places at once.
         """
-        k = self.knots
-        span = np.clip(np.searchsorted(k, x, side="right") - 1, DEGREE, self.size - 1)
-        values = np.zeros((len(x), ORDER))
-        values[:, 0] = 1.0
-        for p in range(1, ORDER):
-            saved = np.zeros(len(x))
-            for r in range(p):
-                right, left = k[span + r + 1] - x, x - k[span + 1 - p + r]
-                share = values[:, r] / (right + left)
-                values[:, r] = saved + right * share
-                saved = left * share
-            values[:, p] = saved
-        return span - DEGREE, values
+        from bladecad.scans.fitting.kernels import four
+
+        first, values = np.empty(len(x), np.int64), np.empty((len(x), ORDER))
+        four(self.knots, np.ascontiguousarray(x), first, values)
+        return first, values

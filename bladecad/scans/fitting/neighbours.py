@@ -67,8 +67,8 @@ def pairs(feet: Feet, which: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArra
     strips = max(int(np.sqrt(len(which)) / STRIPS / 2.0), 1)
     strip = np.minimum((feet.u[which] * strips).astype(np.int64), strips - 1)
     strip = 2 * strip + feet.suction[which]
-    ordered = which[np.lexsort((feet.t[which], strip))]
-    same = np.diff(np.sort(strip)) == 0
+    order = np.argsort(strip + 0.5 * feet.t[which], kind="stable")
+    ordered, same = which[order], np.diff(strip[order]) == 0
     return ordered[:-1][same], ordered[1:][same]
 
 

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
-from typing import Any, Final, final
+from typing import Final, final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bladecad.arrays import Array, Vector
 from bladecad.scans.fitting.local import ORDER, Splines
@@ -39,11 +37,11 @@ def accumulate(in_u: Splines, in_t: Splines, u: Vector, t: Vector, M: Array, f: 
     M : (k, 3) float; weights of the displacement, m_xx, m_xy, m_yy
     f : (k, 2) float; weighted distances to be made up for, mm
     """
-    first_u, values_u = in_u.four(u)
-    first_t, values_t = in_t.four(t)
+    from bladecad.scans.fitting.kernels import add
+
     H = np.zeros((in_u.size, in_t.size, ORDER, AROUND, 3))
     g = np.zeros((in_u.size, in_t.size, 2))
-    _compiled()(first_u, values_u, first_t, values_t, M, f, H, g)
+    add(*in_u.four(u), *in_t.four(t), M, f, H, g)
     return Normal(H, g)
 
 
@@ -56,31 +54,3 @@ def dense(normal: Normal, dk: int, part: int) -> Array:
     for j in range(AROUND):
         blocks[:, rows, rows + j] = H[:, :, j]
     return blocks[:, :, ORDER - 1 : ORDER - 1 + nt]
-
-
-def _add(
-    first_u: NDArray[np.intp], values_u: Array, first_t: NDArray[np.intp], values_t: Array,
-    M: Array, f: Array, H: Array, g: Array,
-) -> None:  # fmt: skip
-    for p in range(len(first_u)):
-        k0, l0 = first_u[p], first_t[p]
-        xx, xy, yy = M[p, 0], M[p, 1], M[p, 2]
-        for a in range(4):
-            for b in range(4):
-                w = values_u[p, a] * values_t[p, b]
-                g[k0 + a, l0 + b, 0] += w * f[p, 0]
-                g[k0 + a, l0 + b, 1] += w * f[p, 1]
-                for c in range(a, 4):
-                    wc = w * values_u[p, c]
-                    for d in range(4):
-                        v = wc * values_t[p, d]
-                        H[k0 + a, l0 + b, c - a, d - b + 3, 0] += v * xx
-                        H[k0 + a, l0 + b, c - a, d - b + 3, 1] += v * xy
-                        H[k0 + a, l0 + b, c - a, d - b + 3, 2] += v * yy
-
-
-@cache
-def _compiled() -> Any:
-    from numba import njit
-
-    return njit(cache=True, nogil=True)(_add)

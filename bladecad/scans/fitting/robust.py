@@ -42,7 +42,8 @@ def weights(residual: Vector, suction: Mask, t: Vector, floor: float) -> Vector:
 def _on_side(residual: Vector, t: Vector, floor: float) -> Vector:
     borders = np.quantile(t, np.linspace(0.0, 1.0, BINS + 1)[1:-1])
     number = np.searchsorted(borders, t)
-    scale = np.array([_scale(residual[number == i]) for i in range(BINS)])
+    bins = np.split(residual[np.argsort(number)], np.cumsum(np.bincount(number, minlength=BINS)))
+    scale = np.array([_scale(own) for own in bins[:BINS]])
     x = residual / (REJECT * np.maximum(scale, floor)[number])
     return np.asarray(np.maximum(1.0 - x * x, 0.0) ** 2)
 
