@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from matplotlib import rc_context
@@ -13,6 +13,7 @@ from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from numpy.typing import NDArray
 
 from bladecad.arrays import Array, Points, Vector
 from bladecad.export.pictures.panels import COLOUR, GREY, INK, RED
@@ -24,6 +25,7 @@ from bladecad.surface.blade import BladeSurface, SideName, normals
 from bladecad.surface.loft import SIDES, graded
 
 MOST: Final = 60_000  # points drawn
+LAYERS: Final = 40  # of depth; those of one layer and colour are drawn at once
 LEFT, LONELY, GAP = "#b9bec5", RED, "#111111"
 PALE: Final = 0.2  # of a colour that is left on the side that faces away
 PROBES: Final = np.linspace(0.1, 0.9, 9)
@@ -71,10 +73,12 @@ def _draw_side(axes: Axes, scanned: Scanned, side: SideName) -> None:
     """Look at one side with the stacking axis upright; what is nearer hides what is behind."""
     back = np.asarray(np.linalg.inv(scanned.transform))
     rows = _rows(scanned.whole.surface, side, scanned.airfoil.axis, back)
-    points, colours = _coloured(scanned, side)
+    points, kind, colours = _coloured(scanned, side)
     x, y, depth = rows @ points.T
-    order = np.argsort(depth)
-    axes.scatter(x[order], y[order], s=1.0, c=colours[order], lw=0, rasterized=True)
+    for layer in np.array_split(np.argsort(depth), LAYERS):
+        for k, colour in enumerate(colours):
+            own = layer[kind[layer] == k]
+            axes.plot(x[own], y[own], "o", ms=1.0, mew=0.0, color=colour, zorder=1.0)
     for u, label in ((0.0, "hub"), (1.0, "tip")):
         _cut(axes, scanned, u, label, rows, back)
     for number, gap in enumerate(scanned.gaps, 1):
@@ -94,21 +98,16 @@ def _rows(surface: BladeSurface, side: SideName, axis: Vector, back: Array) -> A
     return np.stack([np.cross(axis, towards), axis, towards])
 
 
-def _coloured(scanned: Scanned, facing: SideName) -> tuple[Points, Array]:
-    """Some of the points of the scan, and their colours; the side that faces away is pale."""
-    airfoil = scanned.airfoil
-    colours = np.tile(to_rgba(LEFT), (len(airfoil.taken), 1))
-    shades = [np.array(to_rgba(COLOUR[side])) for side in SIDES]
-    suction, pressure = (
-        shade if side == facing else PALE * shade + (1.0 - PALE)
-        for side, shade in zip(SIDES, shades, strict=True)
-    )
-    on = np.where(scanned.whole.feet.suction[:, None], suction, pressure)
-    on[scanned.set_aside] = to_rgba(LONELY)
-    colours[airfoil.taken] = on
-    colours[airfoil.lonely] = to_rgba(LONELY)
-    some = slice(None, None, max(1, len(colours) // MOST))
-    return airfoil.scan.points[some], colours[some]
+def _coloured(scanned: Scanned, facing: SideName) -> tuple[Points, NDArray[np.int64], list[Any]]:
+    """Some points of the scan, what they are, and its colour; the side that faces away is pale."""
+    airfoil, away = scanned.airfoil, SIDES[SIDES[0] == facing]
+    pale = PALE * np.array(to_rgba(COLOUR[away])) + (1.0 - PALE)
+    faces = scanned.whole.feet.suction == (facing == "suction")
+    kind = np.zeros(len(airfoil.taken), np.int64)
+    kind[airfoil.taken] = np.where(scanned.set_aside, 3, np.where(faces, 2, 1))
+    kind[airfoil.lonely] = 3
+    some = slice(None, None, max(1, len(kind) // MOST))
+    return airfoil.scan.points[some], kind[some], [LEFT, pale, COLOUR[facing], LONELY]
 
 
 def _cut(axes: Axes, scanned: Scanned, u: float, label: str, rows: Array, back: Array) -> None:
