@@ -62,4 +62,5 @@ clean:
 $(STAMP): pyproject.toml requirements.lock
 	@$(find_python); test -x $(BIN)/python || "$$python" -m venv .venv
 	$(call install,$(BIN)) --constraint requirements.lock
+	$(BIN)/python -m bladecad.scans.compiled
 	@touch $@

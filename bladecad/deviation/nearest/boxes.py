@@ -64,7 +64,7 @@ def boxes(poles: Array) -> Boxes:
     """Bound sets of poles, (n, k, 3), along their own principal axes."""
     middle = poles.mean(axis=1, keepdims=True)
     away = poles - middle
-    axes = np.linalg.eigh(away.swapaxes(1, 2) @ away)[1].swapaxes(1, 2)
+    axes = np.ascontiguousarray(np.linalg.eigh(away.swapaxes(1, 2) @ away)[1].swapaxes(1, 2))
     local = away @ axes.swapaxes(1, 2)
     low, high = local.min(axis=1), local.max(axis=1)
     centre = middle[:, 0] + np.einsum("ni,nij->nj", 0.5 * (low + high), axes)

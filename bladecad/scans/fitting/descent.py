@@ -120,7 +120,7 @@ def _at(free: Freedom, poles: Array, u: Vector, t: Vector) -> Array:
     from bladecad.scans.fitting.kernels import blend
 
     found = np.zeros((len(u), 2))
-    blend(*free.in_u.four(u), *free.in_t.four(t), poles, found)
+    blend(*free.in_u.four(u), *free.in_t.four(t), np.ascontiguousarray(poles), found)
     return found
 
 

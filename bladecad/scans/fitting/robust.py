@@ -40,11 +40,10 @@ def weights(residual: Vector, suction: Mask, t: Vector, floor: float) -> Vector:
 
 
 def _on_side(residual: Vector, t: Vector, floor: float) -> Vector:
-    borders = np.quantile(t, np.linspace(0.0, 1.0, BINS + 1)[1:-1])
-    number = np.searchsorted(borders, t)
-    bins = np.split(residual[np.argsort(number)], np.cumsum(np.bincount(number, minlength=BINS)))
-    scale = np.array([_scale(own) for own in bins[:BINS]])
-    x = residual / (REJECT * np.maximum(scale, floor)[number])
+    scale = np.empty(len(t))
+    for own in np.array_split(np.argsort(t), BINS):
+        scale[own] = max(_scale(residual[own]), floor)
+    x = residual / (REJECT * scale)
     return np.asarray(np.maximum(1.0 - x * x, 0.0) ** 2)
 
 
