@@ -39,6 +39,7 @@ def build(
     cone: ask.Cone = None,
     stations: ask.Stations = None,
     align: ask.Align = False,
+    allow_partial: ask.AllowPartial = False,
     chord_error: ask.ChordError = 0.005,
     name: ask.Name = None,
     force: ask.Force = False,
@@ -62,11 +63,12 @@ def build(
         settings = scan_settings(
             tolerance=tolerance, order=order, unit=units, axis=axis, span=span, about=about,
             cone=cone, le=le, suction=suction, chord_error=chord_error, stations=stations,
-            align=align,
+            align=align, allow_partial=allow_partial,
         )  # fmt: skip
     else:
         refuse_for_sections(
             path, axis=axis, span=span, about=about, cone=cone, stations=stations, align=align,
+            allow_partial=allow_partial,
         )  # fmt: skip
         settings = Settings(
             tolerance, model, order, spectrum, law, units, axis, le, suction, edges, chord_error

@@ -181,6 +181,11 @@ Align = Annotated[
     typer.Option("--align", help="Write files in the frame of the blade, not of the scan.",
                  rich_help_panel=SCAN),
 ]  # fmt: skip
+AllowPartial = Annotated[
+    bool,
+    typer.Option("--allow-partial", rich_help_panel=SCAN,
+                 help="Build one of several blades, or what large gaps leave of one."),
+]  # fmt: skip
 Lead = Annotated[
     LeadChoice | None,
     typer.Option("--le", help="Leading edge at the low or high end of the axis; else by shape.",

@@ -22,6 +22,21 @@ def scan_rows(report: Report) -> Iterator[tuple[str, str]]:
         f"{airfoil['points']} points between {airfoil['low_mm']:.3f} and {airfoil['high_mm']:.3f} "
         f"mm, axis {axis}; {airfoil['left']} left, {airfoil['lonely']} lonely ones dropped",
     )
+    if scan["partial"]:
+        yield "partial", _partial(scan)
+
+
+def _partial(scan: Report) -> str:
+    """What was not built or not measured, in a line."""
+    partial, said = scan["partial"], []
+    if partial["blades"]:
+        said.append(f"one of {len(partial['blades'])} blades of the scan")
+    beyond = partial["below_mm"] + partial["above_mm"]
+    if beyond:
+        said.append(f"{beyond:.4g} mm of its height left, with one side alone")
+    if scan["gaps"]:
+        said.append(f"{1.0 - scan['supported']:.1%} of the surface not measured")
+    return "; ".join(said)
 
 
 def fit_rows(report: Report) -> Iterator[tuple[str, str]]:

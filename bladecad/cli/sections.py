@@ -34,6 +34,7 @@ def sections(
     cone: ask.Cone = None,
     le: ask.Lead = None,
     suction: ask.Suction = None,
+    allow_partial: ask.AllowPartial = False,
     force: ask.Force = False,
     quiet: ask.Quiet = False,
     verbose: ask.Verbose = False,
@@ -53,7 +54,7 @@ def sections(
     check_suffix(output)
     settings = scan_settings(
         unit=units, axis=axis, span=span, about=about, cone=cone, le=le, suction=suction,
-        stations=stations,
+        stations=stations, allow_partial=allow_partial,
     )  # fmt: skip
     with progress(quiet=quiet) as tell:
         found = sections_of_scan(path, settings, progress=tell)

@@ -44,10 +44,14 @@ def table(report: Report) -> list[str]:
 def verdict(report: Report) -> str:
     """Return the last line, coloured on a terminal."""
     found = report["verdict"]
+    partial = found.get("partial", False)
     if found["within"]:
-        return typer.style(f"within {um(found['tolerance_mm'])}", fg="green", bold=True)
-    reasons = "; ".join(found["reasons"])
-    return typer.style("out of tolerance: ", fg="red", bold=True) + reasons
+        said = f"within {um(found['tolerance_mm'])}"
+        if partial:
+            return typer.style(f"partial blade, {said} where it was measured", fg="yellow")
+        return typer.style(said, fg="green", bold=True)
+    said = "partial blade, out of tolerance: " if partial else "out of tolerance: "
+    return typer.style(said, fg="red", bold=True) + "; ".join(found["reasons"])
 
 
 def _rows(report: Report) -> Iterator[tuple[str, str]]:

@@ -35,7 +35,7 @@ def refuse_for_sections(path: Path, *, axis: Any, **asked: Any) -> None:
     """
     for option, value in asked.items():
         if value is not None and value is not False:
-            _refuse(f"--{option} is for scans", f"{path.name} holds sections")
+            _refuse(f"--{option.replace('_', '-')} is for scans", f"{path.name} holds sections")
     if isinstance(axis, tuple):
         said = ",".join(f"{a:g}" for a in axis)
         _refuse(f"--axis {said} is for scans", f"{path.name} holds sections, about x, y or z")

@@ -118,11 +118,18 @@ def airfoil_of(scan: Scan, settings: ScanSettings) -> Airfoil:
     """Find what of the scan is airfoil, as the settings say."""
     with _said_of(scan):
         found = _found(scan, settings)
-        return _found(denser(found), settings) if is_coarse(found) else found
+        if not is_coarse(found):
+            return found
+        again = _found(denser(found), settings)
+        left = found.partial.notes if found.partial else ()
+        return replace(again, partial=found.partial, notes=(*left, *again.notes))
 
 
 def _found(scan: Scan, settings: ScanSettings) -> Airfoil:
-    return find_airfoil(scan, axis=settings.direction, span=settings.span, height=settings.height)
+    return find_airfoil(
+        scan, axis=settings.direction, span=settings.span, height=settings.height,
+        allow_partial=settings.allow_partial,
+    )  # fmt: skip
 
 
 def slices_of(airfoil: Airfoil, settings: ScanSettings) -> tuple[Sections, BladeLines]:

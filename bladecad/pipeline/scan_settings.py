@@ -39,6 +39,7 @@ class ScanSettings:
     le, suction : see `split_sides`
     stations    : how many sections the scan is cut into, to start from
     align       : move everything into the frame of the blade, see `blade_frame`
+    allow_partial : build one of several blades, or what a scan with large gaps supports
     """
 
     tolerance: float = 0.01
@@ -53,6 +54,7 @@ class ScanSettings:
     chord_error: float = 0.005
     stations: int = STATIONS
     align: bool = False
+    allow_partial: bool = False
 
     def __post_init__(self) -> None:
         for name in ("tolerance", "chord_error"):

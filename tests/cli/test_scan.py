@@ -200,7 +200,7 @@ def test_options_that_are_not_for_scans_are_refused(arguments, message: str, sca
 
 @pytest.mark.parametrize(
     "arguments",
-    [["--span", "1:2"], ["--align"], ["--stations", "9"], ["--about", "z"],
+    [["--span", "1:2"], ["--align"], ["--allow-partial"], ["--stations", "9"], ["--about", "z"],
      ["--cone", "5"], ["--axis", "1,0,0"]],
 )  # fmt: skip
 def test_options_that_are_for_scans_alone_are_refused_for_sections(arguments, tmp_path: Path):
@@ -254,3 +254,45 @@ def test_a_pipe_sees_no_progress(tmp_path: Path):
     assert done.returncode == 2
     assert done.stderr.count("\n") == 1
     assert done.stdout == ""
+
+
+@pytest.fixture(scope="module")
+def partial(tmp_path_factory) -> tuple[Path, int, str, str]:
+    """The files of a scan of two blades, and what was said."""
+    folder = tmp_path_factory.mktemp("partial")
+    points = scan_of(truth_surface("synthetic-thick"), 30_000, sigma=SIGMA, seed=1).points
+    points = np.concatenate([points, points[::2] + np.array([0.0, 25.0, 8.0])])
+    (folder / "two.xyz").write_text(text(points))
+    return folder, *run("build", folder / "two.xyz", "-o", folder / "out", "--allow-partial")
+
+
+def test_two_blades_are_refused_and_the_option_is_named(partial, tmp_path: Path):
+    folder, *_ = partial
+    code, out, err = run("build", folder / "two.xyz", "-o", tmp_path / "out")
+    assert (code, out) == (2, "")
+    assert "two.xyz: the scan holds 2 blades; cut one out, or give --allow-partial" in err
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_partial_blade_is_called_so_in_every_place(partial):
+    folder, code, out, err = partial
+    assert (code, err) == (0, "")
+    assert out.splitlines()[-1] == "partial blade, within 10 um where it was measured"
+    assert "note: the scan holds 2 blades: the one about" in out
+    (line,) = [line for line in out.splitlines() if line.startswith("partial  ")]
+    assert "one of 2 blades of the scan" in line
+    report = json.loads((folder / "out" / "report.json").read_text())
+    assert report["verdict"]["partial"]
+    built, left = report["scan"]["partial"]["blades"]
+    assert built["points"] == pytest.approx(30_000, rel=0.01)
+    assert left["points"] == pytest.approx(15_000, rel=0.01)
+    apart = np.subtract(left["centre_mm"], built["centre_mm"])
+    assert apart == pytest.approx([0.0, 25.0, 8.0], abs=0.5)
+
+
+def test_a_whole_blade_is_not_called_partial(aligned):
+    folder, _, out, *_ = aligned
+    assert "partial" not in out
+    report = json.loads((folder / "report.json").read_text())
+    assert report["verdict"]["partial"] is False
+    assert report["scan"]["partial"] is None

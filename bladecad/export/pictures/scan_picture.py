@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from textwrap import fill
 from typing import Any, Final
 
 import numpy as np
@@ -67,6 +68,9 @@ def _heading(figure: Figure, scanned: Scanned, name: str) -> None:
         f"{axis}); --axis and --span say otherwise",
         color=GREY, va="center",
     )  # fmt: skip
+    if airfoil.partial is not None:
+        said = fill("; ".join(airfoil.partial.notes), 150)
+        figure.text(0.03, 0.89, f"partial blade: {said}", color=RED, va="top", fontsize=9)
 
 
 def _draw_side(axes: Axes, scanned: Scanned, side: SideName) -> None:

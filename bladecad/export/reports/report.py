@@ -56,8 +56,11 @@ def report(product: Product, *, name: str, checks: Checks, files: Mapping[str, P
     files : mapping
         What each file is, to its path.
     """
+    head = _head(name, product.within, product.settings, product.reasons)
+    if product.scanned is not None:
+        head["verdict"]["partial"] = product.scanned.airfoil.partial is not None
     return {
-        **_head(name, product.within, product.settings, product.reasons),
+        **head,
         "input": input_numbers(product.sections, product.lines.notes),
         "misprints": [_misprint(one) for one in product.misprints],
         "odd_sections": [str(one) for one in product.odd],

@@ -8,6 +8,7 @@ import numpy as np
 
 from bladecad.export.reports.report_rows import row_numbers
 from bladecad.scans.finding.airfoil import Airfoil
+from bladecad.scans.finding.partial import Partial
 from bladecad.scans.fitting.whole import WholeFit
 from bladecad.scans.judging.scanned import Scanned
 from bladecad.scans.judging.support import Gap
@@ -23,6 +24,7 @@ def scan_numbers(scanned: Scanned) -> Report:
     return {
         "points": len(scan.points),
         "triangles": 0 if scan.triangles is None else len(scan.triangles),
+        "partial": _partial(scanned.airfoil.partial),
         "airfoil": _airfoil(scanned.airfoil),
         "fit": _fit(scanned.whole),
         "systematic": _systematic(scanned.systematic),
@@ -31,6 +33,19 @@ def scan_numbers(scanned: Scanned) -> Report:
         "gaps": [_gap(one) for one in scanned.gaps],
         "supported": 1.0 - _missing(scanned),
         "transform": scanned.transform,
+    }
+
+
+def _partial(partial: Partial | None) -> Report | None:
+    if partial is None:
+        return None
+    sided = partial.sided
+    return {
+        "blades": [{"points": one.points, "centre_mm": one.centre} for one in partial.blades],
+        "below_mm": sided.below,
+        "above_mm": sided.above,
+        "one_side_missing": sided.share,
+        "notes": list(partial.notes),
     }
 
 

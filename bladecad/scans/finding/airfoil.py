@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Final, final
 
 import numpy as np
@@ -16,7 +17,10 @@ from bladecad.scans.finding.evenly import skin
 from bladecad.scans.finding.height import Height
 from bladecad.scans.finding.located import Located, located
 from bladecad.scans.finding.lonely import lonely
-from bladecad.scans.finding.refusals import refuse_few_or_flat, refuse_several
+from bladecad.scans.finding.one_sided import one_sided, refuse_one_sided
+from bladecad.scans.finding.partial import Beside, Partial
+from bladecad.scans.finding.refusals import refuse_few_or_flat, several_blades
+from bladecad.scans.finding.several import NONE, Several, loose, on_a_hub
 from bladecad.scans.finding.skeleton import Skeleton
 
 ENOUGH: Final = 150_000  # points that the airfoil is found from
@@ -36,6 +40,7 @@ class Airfoil:
     taken   : (k,) bool, points of the scan that are airfoil
     lonely  : (k,) bool, points that stand alone; not taken
     notes   : what was guessed, and how to say otherwise
+    partial : what was left or is bridged, of a scan that shows more or less than one blade
     """
 
     scan: Scan
@@ -46,6 +51,7 @@ class Airfoil:
     taken: Mask
     lonely: Mask
     notes: tuple[str, ...]
+    partial: Partial | None = None
 
     def __post_init__(self) -> None:
         seal(self, axis=(3,))
@@ -62,6 +68,7 @@ def find_airfoil(
     axis: Vector | None = None,
     span: tuple[float, float] | None = None,
     height: Height | None = None,
+    allow_partial: bool = False,
 ) -> Airfoil:
     """Find the stacking axis of a scan and the span that is airfoil.
 
@@ -77,6 +84,9 @@ def find_airfoil(
         given, along the one found, in the sense in which its largest component is positive.
     height : Height, optional
         Cylinders or cones to cut along; planes across the stacking axis by default.
+    allow_partial : bool
+        Take one of several blades, the one with the most points, or the part of a blade that has
+        both sides; bridge up to half of a side.
 
     Raises
     ------
@@ -87,19 +97,46 @@ def find_airfoil(
         alone, island = _alone(scan)
         points = skin(scan, ENOUGH, ~alone)
         refuse_few_or_flat(points)
-        if scan.triangles is None:
-            refuse_several(scan.points[~alone], island[~alone])
-        found = located(points, axis=axis, span=span, height=height)
-        inside, far = _inside(scan.points, found, alone)
+        several = loose(scan.points[~alone], island[~alone]) if scan.triangles is None else NONE
+        if several.blades > 1 and not allow_partial:
+            raise several_blades(several.blades)
+        find = partial(located, axis=axis, span=span, height=height)
+        found: Located | None = None
+        if several.blades < 2:
+            try:
+                found = find(points)
+            except DataError:
+                several = on_a_hub(points) if allow_partial else NONE
+                if several.blades < 2:
+                    raise
+        blades, other = _beside(scan.points, several, alone)
+        if found is None:
+            points = skin(scan, ENOUGH, ~(alone | other))
+            found = find(points)
+        sided = one_sided(points, found)
+        refuse_one_sided(sided, found, allow_partial=allow_partial, given=span is not None)
+        inside, far = _inside(scan.points, found, alone | other)
     if inside.sum() == 0:
         raise DataError(
             f"no point of the scan lies between the heights {found.low:.4g} and "
             f"{found.high:.4g} mm; give another --span"
         )
+    left = Partial(blades, sided) if blades or not sided.free else None
     return Airfoil(
         scan, found.height, found.axis, found.low, found.high, inside, alone,
-        (*found.notes, *_said(scan, found, alone, far)),
+        (*(left.notes if left else ()), *found.notes, *_said(scan, alone, far)), left,
     )  # fmt: skip
+
+
+def _beside(points: Points, several: Several, alone: Mask) -> tuple[tuple[Beside, ...], Mask]:
+    """The blades of a scan with several, most points first, and which points are not of it."""
+    if several.blades < 2:
+        return (), np.zeros(len(points), bool)
+    whose = several.whose(points)
+    held = np.bincount(whose[~alone], minlength=several.blades)[: several.blades]
+    order = np.argsort(-held, kind="stable")
+    blades = [Beside(int(held[k]), several.parts[k].mean(axis=0)) for k in order]
+    return tuple(blades), np.asarray(whose != order[0])
 
 
 def _alone(scan: Scan) -> tuple[Mask, NDArray[np.int64]]:
@@ -108,14 +145,14 @@ def _alone(scan: Scan) -> tuple[Mask, NDArray[np.int64]]:
     return np.zeros(len(scan.points), bool), np.zeros(len(scan.points), np.int64)
 
 
-def _inside(points: Points, found: Located, alone: Mask) -> tuple[Mask, int]:
+def _inside(points: Points, found: Located, not_its: Mask) -> tuple[Mask, int]:
     """Which points are airfoil, and how many at its heights are far from it."""
     inside = np.zeros(len(points), bool)
     far = 0
     for first in range(0, len(points), BLOCK):
         block = slice(first, first + BLOCK)
         h = found.height(points[block])
-        at = np.flatnonzero((h >= found.low) & (h <= found.high) & ~alone[block])
+        at = np.flatnonzero((h >= found.low) & (h <= found.high) & ~not_its[block])
         near = _near(found.flat(points[block][at]), found.shape)
         inside[first + at[near]] = True
         far += int((~near).sum())
@@ -127,7 +164,7 @@ def _near(flat: Points, shape: Skeleton) -> Mask:
     return np.asarray((np.abs(across) < half + FAR * chord) & (np.abs(X - 0.5) < 0.5 + FAR))
 
 
-def _said(scan: Scan, found: Located, alone: Mask, far: int) -> tuple[str, ...]:
+def _said(scan: Scan, alone: Mask, far: int) -> tuple[str, ...]:
     notes = []
     if alone.any():
         notes.append(f"{alone.sum()} points stand alone, away from all others; left out")

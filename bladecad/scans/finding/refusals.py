@@ -2,30 +2,25 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from bladecad.arrays import Points, Vector
 from bladecad.errors import DataError
-from bladecad.scans.finding.axis import stacking_axis
-from bladecad.scans.finding.height import planes
-from bladecad.scans.finding.lonely import lonely
+from bladecad.scans.finding.several import on_a_hub
+from bladecad.scans.finding.sheets import sheets
 from bladecad.scans.finding.skeleton import legendre
 
 FEWEST: Final = 600  # points from which a blade is told
 FLAT: Final = 1e-3  # of the largest extent, rms
-LARGE: Final = 0.15  # of the points: an island that may be a blade
-BLADE: Final = 0.2  # worth from which an island is one
 SHEET: Final = 3e-3  # of the size, rms: points that lie on one smooth sheet
 DEGREE: Final = 7  # of that sheet
 LAYERS: Final = 400  # heights in which stacked sections leave most empty
 FILLED: Final = 0.25  # of them
-LOOPS: Final = 12  # slabs in which loops are counted
-THICK: Final = 0.8  # over the width: of what is thicker, loops are not counted
+CELLS: Final = (16, 16)  # of the principal plane, in which sheets are counted
+OPEN: Final = 0.5  # of them with one sheet alone
 PROBES: Final = 400  # points whose neighbours are looked at
 THIN: Final = 0.15  # width over length of neighbours that lie on a line
 
@@ -51,31 +46,20 @@ def refuse_few_or_flat(points: Points) -> None:
         )
 
 
-def refuse_several(points: Points, island: NDArray[np.int64]) -> None:
-    """Refuse scans that hold several blades, each for itself.
-
-    Raises
-    ------
-    DataError
-    """
-    held = np.bincount(island)
-    large = np.flatnonzero(held > LARGE * len(points))
-    if len(large) < 2:
-        return
-    blades = [k for k in large if stacking_axis(points[island == k])[1] > BLADE]
-    if len(blades) > 1:
-        raise DataError(
-            f"the scan holds {len(blades)} blades that do not touch; cut them apart and build each "
-            "by itself"
-        )
+def several_blades(count: int) -> DataError:
+    """Say that a scan holds several blades."""
+    return DataError(
+        f"the scan holds {count} blades; cut one out, or give --allow-partial to build the one "
+        "with the most points"
+    )
 
 
 def no_blade(points: Points) -> DataError:
-    """Say why points are no blade: one side of it, sections, several loops, anything."""
+    """Say why points are no blade: one side of it, several blades, sections, anything."""
     if _sheet(points):
         return DataError(
-            "the scan is open: its points lie on one smooth sheet, one side of a blade at most; "
-            "scan the other side, too"
+            "the scan is open: its points lie on one smooth sheet, one side of a blade at most; a "
+            "solid needs both: scan the other side, too"
         )
     layers = _layers(points)
     if layers or _lines(points):
@@ -84,14 +68,16 @@ def no_blade(points: Points) -> DataError:
             f"the points of the scan lie on {where} with nothing between them: these are "
             "sections; give a file of sections"
         )
+    count = on_a_hub(points).blades
+    if count > 1:
+        return several_blades(count)
+    missing = _one_sheet(points)
+    if missing > OPEN:
+        return DataError(
+            f"the scan is open: over {missing:.0%} of its extent its points lie on one sheet; a "
+            "solid needs both sides of the blade: scan the other side, too"
+        )
     size = _extents(points)
-    if size[2] < THICK * size[1]:
-        count = _loops(points)
-        if count > 1:
-            return DataError(
-                f"slices of the scan fall apart into {count} loops: several blades, or more than "
-                "a blade? cut one out, or give --axis and --span"
-            )
     return DataError(
         f"the scan is no blade: it is {size[2] / size[1]:.0%} as thick as wide, and no direction "
         "cuts it into slender closed loops that change slowly; if it is one, give --axis and --span"
@@ -138,17 +124,10 @@ def _lines(points: Points) -> bool:
     return bool(np.median(length[:, 1] / np.maximum(length[:, 2], 1e-300)) < THIN)
 
 
-def _loops(points: Points) -> int:
-    """Into how many large parts the slices across a principal axis fall apart, the usual number."""
-    X = points - points.mean(axis=0)
-    most = 1
-    for axis in np.linalg.eigh(X.T @ X)[1].T:
-        flat = planes(axis).flat(X, 0.0, 0.0)
-        edges = np.quantile(flat[:, 2], np.linspace(0.1, 0.9, LOOPS + 1))
-        counts = []
-        for low, high in pairwise(edges):
-            slab = flat[(flat[:, 2] > low) & (flat[:, 2] < high)]
-            held = np.bincount(lonely(slab)[1])
-            counts.append(int((held > LARGE * len(slab)).sum()))
-        most = max(most, int(np.median(counts)))
-    return most
+def _one_sheet(points: Points) -> float:
+    """Over which share of the principal plane points lie on one sheet."""
+    flat = _principal(points)
+    low, wide = flat.min(axis=0), np.ptp(flat, axis=0)
+    x, y, z = ((flat - low) / np.maximum(wide, 1e-300)).T
+    cells = sheets(x, y, z, CELLS)
+    return float(cells.one.sum() / max(cells.judged.sum(), 1))
