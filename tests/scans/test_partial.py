@@ -164,3 +164,13 @@ def test_two_sheets_are_told_from_one_however_uneven_and_noisy(share, apart):
 def test_a_blade_is_not_several():
     points = strewn(truth_surface("synthetic-thick"), 30_000, RNG)[0]
     assert on_a_hub(points).blades < 2
+
+
+@pytest.mark.parametrize("root", [False, True], ids=["alone", "rooted"])
+def test_what_goes_on_like_a_blade_is_told_and_a_root_is_none(root):
+    """Hub and tip of Rotor 37 are round: slices across the axis do not close there."""
+    for name, ends in (("rotor37", {"above"} if root else {"below", "above"}), ("synthetic", {})):
+        scan = scan_of(truth_surface(name), 60_000, sigma=SIGMA, pose="any", root=root, seed=1)
+        told = {end for end in ("below", "above") for note in find_airfoil(scan.scan).notes
+                if "the scan goes on" in note and end in note}  # fmt: skip
+        assert told == set(ends)

@@ -13,6 +13,7 @@ from bladecad.arrays import Mask, Points, Vector, seal
 from bladecad.data.scan import Scan
 from bladecad.errors import DataError
 from bladecad.one_thread import one_thread
+from bladecad.scans.finding.beyond import left_beyond
 from bladecad.scans.finding.evenly import skin
 from bladecad.scans.finding.height import Height
 from bladecad.scans.finding.located import Located, located
@@ -115,6 +116,7 @@ def find_airfoil(
             found = find(points)
         sided = one_sided(points, found)
         refuse_one_sided(sided, found, allow_partial=allow_partial, given=span is not None)
+        more = left_beyond(points, found) if span is None and sided.free else ()
         inside, far = _inside(scan.points, found, alone | other)
     if inside.sum() == 0:
         raise DataError(
@@ -124,7 +126,7 @@ def find_airfoil(
     left = Partial(blades, sided) if blades or not sided.free else None
     return Airfoil(
         scan, found.height, found.axis, found.low, found.high, inside, alone,
-        (*(left.notes if left else ()), *found.notes, *_said(scan, alone, far)), left,
+        (*(left.notes if left else ()), *found.notes, *more, *_said(scan, alone, far)), left,
     )  # fmt: skip
 
 
