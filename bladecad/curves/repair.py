@@ -21,7 +21,8 @@ SAME_PLACE = 1e-4  # of the size of a section: 6 um on 60 mm
 def repaired(sections: Sections, *, ordered: bool = False) -> Sections:
     """Return the sections in order from hub to tip, every repair noted.
 
-    `ordered` says that they are: what was cut from hub to tip need not be told by its radius.
+    `ordered` says that they are: what was cut from one body, hub to tip, need not be told by its
+    radius, and none of it can be turned against the rest.
 
     Raises
     ------
@@ -37,7 +38,7 @@ def repaired(sections: Sections, *, ordered: bool = False) -> Sections:
     if not ordered:
         sections, order = _in_order(sections)
         flats = [flats[i] for i in order]
-    refuse_turned(sections, flats)
+        refuse_turned(sections, flats)
     return sections.noted(*_running_back(sections, flats))
 
 

@@ -21,6 +21,8 @@ from bladecad.fit.order import fit_blade
 from bladecad.one_thread import one_thread
 from bladecad.scans.fitting.laid_on import sections_of
 from bladecad.scans.fitting.spline_surface import Smooth, stiffened
+from bladecad.scans.moved import moved_lines, moved_sections
+from bladecad.scans.upright import upright
 from bladecad.surface.loft import graded
 
 log = logging.getLogger(__name__)
@@ -38,20 +40,22 @@ def sections_for(points: Points, smooth: Smooth, axis: Vector) -> tuple[Smooth, 
     """Cut the smooth surface into sections; stiffen it where noise has folded their edges."""
     for factor in STIFFER:
         try:
-            return smooth, _split(smooth)
+            return smooth, _split(smooth, axis)
         except DataError as error:
             log.info("%s; smoothness is weighed %g times", error, factor)
             smooth = stiffened(points, smooth, factor, axis)
-    return smooth, _split(smooth)
+    return smooth, _split(smooth, axis)
 
 
-def _split(smooth: Smooth) -> BladeLines:
+def _split(smooth: Smooth, axis: Vector) -> BladeLines:
     found = sections_of(smooth.surface, smooth.surface.span, smooth.breaks)
-    sections = repaired(found, ordered=True)
+    move = upright(axis, np.vstack([section.points for section in found.sections]))
+    stood = repaired(moved_sections(found, move, "z"), ordered=True)
     try:
-        return split_sides(sections, edges="find")
+        lines = split_sides(stood, edges="find")
     except DataError:
-        return split_sides(sections)
+        lines = split_sides(stood)
+    return moved_lines(lines, np.asarray(np.linalg.inv(move), dtype=np.float64))
 
 
 def flows_of(

@@ -34,6 +34,11 @@ class Scatter:
     excess: float
     correlation: float
 
+    @property
+    def lack(self) -> float:
+        """Lack of fit over noise, both squared: the correlation is l^2 / (l^2 + sigma^2)."""
+        return self.correlation / max(1.0 - self.correlation, EXACT)
+
 
 def scatter(feet: Feet, counts: Mask, used: float = 0.0) -> Scatter:
     """Tell noise and lack of fit apart.

@@ -24,7 +24,7 @@ log = logging.getLogger(__name__)
 Progress = Callable[[str], None]
 
 LADDER: Final = ((11, 0.36), (15, 0.30), (21, 0.25), (29, 0.21), (41, 0.18))  # stations, rad a span
-LESS: Final = 0.85  # of the correlation; a rung that leaves more is not taken
+LESS: Final = 0.85  # of the lack of fit, as a square; a rung that leaves more is not taken
 EACH: Final = 6  # points a span at least
 FEW: Final = 60_000  # points of the first passes
 MANY: Final = 300_000  # points of the others
@@ -85,7 +85,7 @@ def smooth_surface(
         if best.scatter.correlation <= 0.0 or len(points) < _needed(stations, breaks):
             break
         finer = _finer(points, best, stations, breaks, axis, progress)
-        if finer.scatter.correlation > LESS * best.scatter.correlation:
+        if finer.scatter.lack > LESS * best.scatter.lack:
             break
         best = finer
     return best
