@@ -5,8 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from bladecad.curves.repair import repaired
-from bladecad.curves.sides import split_sides
 from bladecad.data.read_scan import read_scan
 from bladecad.data.scan import Scan
 from bladecad.data.sections import Source
@@ -14,6 +12,7 @@ from bladecad.deviation.nearest.nominal import nominal_of
 from bladecad.deviation.nearest.project import project
 from bladecad.errors import DataError
 from bladecad.scans.finding.airfoil import find_airfoil
+from bladecad.scans.slicing.parted import parted
 from bladecad.scans.slicing.slices import slice_airfoil
 from tests.scans.truth import AIRFOIL, FOOT, SHARED, scan_of, truth_surface
 
@@ -98,8 +97,7 @@ def test_slices_are_good_to_fifty_micrometres_edges_and_all(mesh):
     truth = truth_surface("synthetic-thick")
     scan = scan_of(truth, 80_000, sigma=0.01, pose="any", mesh=mesh, seed=7)
     found = find_airfoil(scan.scan)
-    sections = repaired(slice_airfoil(found))
-    lines = split_sides(sections)
+    sections, lines = parted(found, slice_airfoil(found))
     assert len(lines.names) == 21
     X = np.concatenate([section.points for section in sections.sections[1:-1]])
     feet = project(nominal_of(truth), scan.to_truth(X))

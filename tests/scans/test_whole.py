@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
-from bladecad.curves.repair import repaired
-from bladecad.curves.sides import split_sides
 from bladecad.deviation.nearest.nominal import nominal_of
 from bladecad.deviation.nearest.project import project
 from bladecad.errors import DataError
 from bladecad.fit.joint import edge_conditions
+from bladecad.pipeline.scan import build_scan
 from bladecad.scans.finding.airfoil import find_airfoil
+from bladecad.scans.fitting.neighbours import Scatter
 from bladecad.scans.fitting.whole import fit_scan
+from bladecad.scans.slicing.parted import parted
 from bladecad.scans.slicing.slices import slice_airfoil
 from bladecad.surface.loft import SIDES, graded
 from tests.scans.truth import OUTLIER, scan_of, truth_surface
@@ -23,7 +25,7 @@ HOLE = ("suction", 0.4, 0.5, 0.3, 0.5)
 def fitted(scan, tolerance=0.01):
     """The whole chain from points to surface."""
     airfoil = find_airfoil(scan)
-    lines = split_sides(repaired(slice_airfoil(airfoil)))
+    lines = parted(airfoil, slice_airfoil(airfoil))[1]
     return airfoil, fit_scan(airfoil.points, lines, airfoil.axis, tolerance=tolerance)
 
 
@@ -115,6 +117,31 @@ def test_a_clean_scan_is_followed_closer_than_it_is_asked():
     scan = scan_of(truth_surface("synthetic-thick"), 120_000, seed=5)
     _, whole = fitted(scan.scan)
     assert scan.distance(whole.surface).largest() < 0.005
+
+
+@pytest.mark.parametrize("name", ["synthetic", "hannover"])
+@pytest.mark.parametrize("turn", range(2))
+def test_a_scan_may_lie_anywhere_also_round_the_origin(name, turn):
+    """The axes of its frame then run through the blade, which has no machine about it."""
+    blade, R = truth_surface(name), Rotation.random(random_state=turn).as_matrix()
+    middle = blade("suction", np.array([0.5]), np.array([0.5]))[0, 0]
+    scan = scan_of(blade, 40_000, sigma=0.005, pose=(R, -R @ middle), seed=turn)
+    _, whole = fitted(scan.scan)
+    assert scan.distance(whole.surface).rms() <= 0.001
+
+
+def test_a_mesh_that_does_not_hold_the_edges_is_refused_with_what_to_do(tmp_path):
+    """Edges of 0.2 mm, vertices 2 mm apart: what lies between them is anybody's guess."""
+    scan = scan_of(truth_surface("synthetic"), 3_000, sigma=0.003, pose="any", seed=1, mesh=True)
+    with pytest.raises(DataError, match=r"^coarse.stl: .* do not hold the edges .* finer mesh$"):
+        build_scan(scan.write(tmp_path / "coarse.stl"))
+
+
+@pytest.mark.parametrize("lack", [0.1, 1.0, 10.0])
+def test_lack_of_fit_is_told_from_correlation_however_large(lack):
+    """A residual is lack + noise, so neighbours correlate by l^2 / (l^2 + s^2)."""
+    found = Scatter(1.0, 1.0, lack**2 / (lack**2 + 1.0))
+    assert found.lack == pytest.approx(lack**2)
 
 
 def test_too_few_points_are_refused_with_their_number():

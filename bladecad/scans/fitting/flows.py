@@ -37,14 +37,27 @@ DENSE: Final = 401  # places of a section at which the flows are judged
 
 
 def sections_for(points: Points, smooth: Smooth, axis: Vector) -> tuple[Smooth, BladeLines]:
-    """Cut the smooth surface into sections; stiffen it where noise has folded their edges."""
+    """Cut the smooth surface into sections; stiffen it where noise has folded their edges.
+
+    Raises
+    ------
+    DataError
+        If even then an edge is folded.
+    """
     for factor in STIFFER:
         try:
             return smooth, _split(smooth, axis)
         except DataError as error:
             log.info("%s; smoothness is weighed %g times", error, factor)
             smooth = stiffened(points, smooth, factor, axis)
-    return smooth, _split(smooth, axis)
+    try:
+        return smooth, _split(smooth, axis)
+    except DataError as error:
+        raise DataError(
+            "the points do not hold the edges of the blade: a smooth surface through them folds "
+            f"over there, though smoothness is weighed {STIFFER[-1]:g} times; scan the edges "
+            "closer, or give a finer mesh"
+        ) from error
 
 
 def _split(smooth: Smooth, axis: Vector) -> BladeLines:

@@ -30,6 +30,7 @@ RADII: Final = (0.0015, 0.06)  # of the chord, between which an edge radius must
 LINE: Final = 480
 STIFF: Final = (1.0, 1e2, 1e4)  # least weights of smoothness that are tried
 OUTLINE: Final = 320  # points of a loop
+THIN: Final = 0.05  # of the largest thickness: thinner, a rough shape may cross itself
 
 
 def slice_airfoil(airfoil: Airfoil, count: int = 21) -> Sections:
@@ -159,7 +160,9 @@ def outline(shape: Skeleton, height: float) -> Points:
         np.polynomial.legendre.legval(2.0 * X - 1.0, (legendre(share, c.shape[1] - 1) @ c.T)[0])
         for c in (shape.camber, shape.thickness)
     )
-    return np.stack([X, camber + 0.5 * np.sin(turn) * np.maximum(thick, 0.0)], axis=1)
+    return np.stack(
+        [X, camber + 0.5 * np.sin(turn) * np.maximum(thick, THIN * thick.max())], axis=1
+    )
 
 
 def _loop(q: Points, lift: Vector, inner: Capsule, rough: Points) -> Points:
