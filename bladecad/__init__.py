@@ -94,6 +94,7 @@ if TYPE_CHECKING:
     from bladecad.scans.fitting.whole import fit_scan as fit_scan
     from bladecad.scans.judging.support import Gap as Gap
     from bladecad.scans.judging.support import find_gaps as find_gaps
+    from bladecad.scans.slicing.parted import parted as parted
     from bladecad.scans.slicing.slices import slice_airfoil as slice_airfoil
     from bladecad.surface.blade import BladeSurface as BladeSurface
     from bladecad.surface.loft import Loft as Loft
@@ -175,6 +176,7 @@ __all__ = [
     "mesh_blade",
     "nominal_of",
     "offset_loft",
+    "parted",
     "passage_of",
     "project",
     "read_scan",
@@ -263,6 +265,7 @@ _HOMES = {
     "scans.finding.airfoil": ("Airfoil", "find_airfoil"),
     "scans.fitting.whole": ("WholeFit", "fit_scan"),
     "scans.judging.support": ("Gap", "find_gaps"),
+    "scans.slicing.parted": ("parted",),
     "scans.slicing.slices": ("slice_airfoil",),
     "surface.blade": ("BladeSurface",),
     "surface.loft": ("Loft", "loft"),
