@@ -46,10 +46,8 @@ def test_the_body_is_within_a_micrometre(asked):
     assert found.rms(found.body) <= 0.001
 
 
-def test_no_place_of_the_body_is_off_by_more_than_six_micrometres(asked, request):
-    scan, _, _, found = asked
-    if scan.surface is truth_surface("rotor37"):
-        request.applymarker(pytest.mark.xfail(reason="6.4 um at u = 0.95, t = 0.70, in this draw"))
+def test_no_place_of_the_body_is_off_by_more_than_six_micrometres(asked):
+    found = asked[3]
     assert found.largest(found.body) <= 0.006
 
 
@@ -130,9 +128,16 @@ def test_a_scan_may_lie_anywhere_also_round_the_origin(name, turn):
     assert scan.distance(whole.surface).rms() <= 0.001
 
 
+def test_exact_points_ask_for_no_spans_that_fold_the_edges():
+    """The finer surfaces through them do: the finest that does not is taken."""
+    scan = scan_of(truth_surface("rotor37"), 80_000, pose="any", seed=5)
+    _, whole = fitted(scan.scan)
+    assert scan.distance(whole.surface).rms() < 0.005
+
+
 def test_a_mesh_that_does_not_hold_the_edges_is_refused_with_what_to_do(tmp_path):
     """Edges of 0.2 mm, vertices 2 mm apart: what lies between them is anybody's guess."""
-    scan = scan_of(truth_surface("synthetic"), 3_000, sigma=0.003, pose="any", seed=1, mesh=True)
+    scan = scan_of(truth_surface("rotor37"), 3_000, sigma=0.003, pose="any", seed=1, mesh=True)
     with pytest.raises(DataError, match=r"^coarse.stl: .* do not hold the edges .* finer mesh$"):
         build_scan(scan.write(tmp_path / "coarse.stl"))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Final
 
@@ -37,27 +37,37 @@ DENSE: Final = 401  # places of a section at which the flows are judged
 
 
 def sections_for(points: Points, smooth: Smooth, axis: Vector) -> tuple[Smooth, BladeLines]:
-    """Cut the smooth surface into sections; stiffen it where noise has folded their edges.
+    """Cut the smooth surface into sections, a smoother one where noise has folded their edges.
 
     Raises
     ------
     DataError
         If even then an edge is folded.
     """
-    for factor in STIFFER:
+    folded: DataError | None = None
+    for attempt in _attempts(points, smooth, axis):
         try:
-            return smooth, _split(smooth, axis)
+            return attempt, _split(attempt, axis)
         except DataError as error:
-            log.info("%s; smoothness is weighed %g times", error, factor)
-            smooth = stiffened(points, smooth, factor, axis)
-    try:
-        return smooth, _split(smooth, axis)
-    except DataError as error:
-        raise DataError(
-            "the points do not hold the edges of the blade: a smooth surface through them folds "
-            f"over there, though smoothness is weighed {STIFFER[-1]:g} times; scan the edges "
-            "closer, or give a finer mesh"
-        ) from error
+            log.info("%s", error)
+            folded = error
+    raise DataError(
+        "the points do not hold the edges of the blade: a smooth surface through them folds over "
+        f"there, though smoothness is weighed {STIFFER[-1]:g} times; scan the edges closer, or "
+        "give a finer mesh"
+    ) from folded
+
+
+def _attempts(points: Points, smooth: Smooth, axis: Vector) -> Iterator[Smooth]:
+    """The surface, stiffer, with fewer spans, and with the fewest stiffer and stiffer."""
+    rung = smooth
+    yield rung
+    yield stiffened(points, rung, STIFFER[0], axis)
+    while rung.coarser:
+        rung = rung.coarser
+        yield rung
+    for factor in STIFFER:
+        yield stiffened(points, rung, factor, axis)
 
 
 def _split(smooth: Smooth, axis: Vector) -> BladeLines:

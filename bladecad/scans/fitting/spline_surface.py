@@ -32,6 +32,7 @@ FIRST_PASSES: Final = 3
 STIFF_PASSES: Final = 2
 DAMPING: Final = 0.3  # of moves along a section: at an edge, splines would slide over each other
 FAR: Final = 0.02
+FINEST: Final = 5e-4  # mm, rms; nobody asks for less, and exact points would for ever more spans
 FLOOR: Final = 0.005  # mm; scatter below which no point is an outlier, first and last
 
 
@@ -42,12 +43,14 @@ class Smooth(NamedTuple):
     breaks  : of its splines along the sides
     scatter : of the points about it
     passes  : that it took
+    coarser : the one with fewer spans before it; None of the first
     """
 
     surface: BladeSurface
     breaks: Vector
     scatter: Scatter
     passes: int
+    coarser: Smooth | None = None
 
     @property
     def criterion(self) -> str:
@@ -58,10 +61,12 @@ class Smooth(NamedTuple):
                 f"{size}: neighbouring residuals are unrelated, their correlation is within two "
                 "standard errors of zero; what is left is noise"
             )
+        if _is_noise(self.scatter):
+            return f"{size}: points lie within {1e3 * FINEST:g} um of it, rms"
         return (
             f"{size}: neighbouring residuals stay related (correlation at least "
-            f"{self.scatter.correlation:.3f}), and more spans do not change that, or would have "
-            f"fewer than {EACH} points each"
+            f"{self.scatter.correlation:.3f}), and more spans do not change that, would have fewer "
+            f"than {EACH} points each, or fold an edge over"
         )
 
 
@@ -82,7 +87,7 @@ def smooth_surface(
     best = _first(points, rough, axis, progress)
     for stations, turn in LADDER[1:]:
         breaks = breaks_along(rough, turn)
-        if best.scatter.correlation <= 0.0 or len(points) < _needed(stations, breaks):
+        if _is_noise(best.scatter) or len(points) < _needed(stations, breaks):
             break
         finer = _finer(points, best, stations, breaks, axis, progress)
         if finer.scatter.lack > LESS * best.scatter.lack:
@@ -117,7 +122,11 @@ def _finer(
     surface, free = _written(last.surface, stations, breaks, axis, progress)
     prior = roughness(surface, free, last.scatter.noise)
     step = descend(surface, free, points, prior, FLOOR, DAMPING)
-    return _told(Smooth(step.surface, breaks, step.scatter, last.passes + 1))
+    return _told(Smooth(step.surface, breaks, step.scatter, last.passes + 1, last))
+
+
+def _is_noise(scatter: Scatter) -> bool:
+    return scatter.correlation <= 0.0 or scatter.excess * scatter.noise <= FINEST
 
 
 def stiffened(points: Points, last: Smooth, factor: float, axis: Vector) -> Smooth:
@@ -128,7 +137,8 @@ def stiffened(points: Points, last: Smooth, factor: float, axis: Vector) -> Smoo
     for _ in range(STIFF_PASSES):
         step = descend(surface, free, points, prior, FLOOR, DAMPING)
         surface = step.surface
-    return _told(Smooth(surface, last.breaks, step.scatter, last.passes + STIFF_PASSES))
+    passes = last.passes + STIFF_PASSES
+    return _told(Smooth(surface, last.breaks, step.scatter, passes, last.coarser))
 
 
 def _written(
