@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from contextlib import suppress
 from pathlib import Path
 from typing import Any, Final
 
@@ -11,7 +10,6 @@ from matplotlib import rc_context
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from bladecad.errors import ExportError
 from bladecad.export.pictures.panels import (
     GREY,
     INK,
@@ -24,6 +22,7 @@ from bladecad.export.pictures.panels import (
 from bladecad.export.pictures.scan_panels import draw_bands
 from bladecad.export.product import Product
 from bladecad.export.reports.report_solid import brep_distance
+from bladecad.written import beside
 
 DPI: Final = 150
 GREEN: Final = "#2e7d32"
@@ -122,12 +121,5 @@ def _footing(figure: Figure, product: Product) -> None:
 def save_figure(figure: Figure, path: Path) -> None:
     """Write a figure as PNG, beside first and then renamed."""
     FigureCanvasAgg(figure)
-    beside = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        figure.savefig(beside, format="png", metadata={"Software": "bladecad"})
-        beside.replace(path)
-    except OSError as error:
-        raise ExportError(f"{path} cannot be written: {error.strerror}") from error
-    finally:
-        with suppress(OSError):
-            beside.unlink()
+    with beside(path) as file:
+        figure.savefig(file, format="png", metadata={"Software": "bladecad"})

@@ -14,6 +14,7 @@ from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
 from bladecad.arrays import Array, Points, Vector
@@ -119,9 +120,12 @@ def _cut(axes: Axes, scanned: Scanned, u: float, label: str, rows: Array, back: 
     loop = [surface(s, np.array([u]), T)[0] for s in SIDES]
     x, y, _ = rows @ moved_points(np.concatenate([loop[0], loop[1][::-1]]), back).T
     axes.plot(x, y, color=INK, lw=1.2)
-    height = scanned.airfoil.low if u == 0.0 else scanned.airfoil.high
-    axes.annotate(f"{label} {height:.2f}", (x.max(), y[x.argmax()]), (5, 0), fontsize=8,
-                  textcoords="offset points", va="center", annotation_clip=False)  # fmt: skip
+    height, off, va = (
+        (scanned.airfoil.low, -3, "top") if u == 0.0 else (scanned.airfoil.high, 3, "bottom")
+    )
+    axes.annotate(f"{label} {height:.2f}", (x.max(), y[x.argmax()]), (0, off), fontsize=8,
+                  textcoords="offset points", ha="right", va=va,
+                  path_effects=[withStroke(linewidth=3, foreground="white")])  # fmt: skip
 
 
 def _mark(
