@@ -25,12 +25,13 @@ from bladecad.pipeline.scan_settings import ScanSettings
 from bladecad.scans.blade_frame import blade_frame
 from bladecad.scans.finding.airfoil import Airfoil, find_airfoil
 from bladecad.scans.finding.denser import denser, is_coarse
+from bladecad.scans.fitting.moved_whole import moved_whole
 from bladecad.scans.fitting.whole import WholeFit, fit_scan
 from bladecad.scans.judging.scanned import Scanned, deviation_of_scan
 from bladecad.scans.judging.support import find_gaps
 from bladecad.scans.judging.systematic import systematic
 from bladecad.scans.judging.worst import worst_of_scan
-from bladecad.scans.moved import moved_sections, moved_whole
+from bladecad.scans.moved import moved_sections
 from bladecad.scans.slicing.parted import parted
 from bladecad.scans.slicing.slices import slice_airfoil
 

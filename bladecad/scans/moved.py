@@ -1,9 +1,9 @@
-"""All that is known of a blade, moved rigidly: sections, lines, flows, feet."""
+"""What is known of a blade, moved rigidly: points, sections, lines, flows."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Protocol, cast
+from typing import Protocol, cast
 
 import numpy as np
 
@@ -12,13 +12,8 @@ from bladecad.curves.line import Line
 from bladecad.curves.outline import Outline, Track
 from bladecad.curves.sides import BladeLines
 from bladecad.data.sections import Axis, Sections
-from bladecad.deviation.nearest.feet import Feet
-from bladecad.fit.blade import BladeFit
 from bladecad.fit.sidefit import SideFit
 from bladecad.surface.blade import BladeSurface
-
-if TYPE_CHECKING:
-    from bladecad.scans.fitting.whole import WholeFit
 
 
 class WithOne(Protocol):
@@ -41,32 +36,17 @@ def moved_sections(sections: Sections, move: Array, axis: Axis) -> Sections:
     return replace(sections, sections=found, source=source)
 
 
-def moved_whole(whole: WholeFit, move: Array) -> WholeFit:
-    """A fit, its surface, its points and their feet moved together."""
-    return replace(
-        whole,
-        fit=_fit(whole.fit, move),
-        surface=moved_surface(whole.surface, move),
-        points=moved_points(whole.points, move),
-        feet=_feet(whole.feet, move),
-    )
-
-
 def moved_surface(surface: BladeSurface, move: Array) -> BladeSurface:
     """A surface moved: its flows share the constant 1, which carries the shift."""
-    suction, pressure = (_side(side, move) for side in (surface.suction, surface.pressure))
+    suction, pressure = (moved_side(side, move) for side in (surface.suction, surface.pressure))
     return replace(surface, suction=suction, pressure=pressure)
 
 
-def _side(side: SideFit, move: Array) -> SideFit:
+def moved_side(side: SideFit, move: Array) -> SideFit:
+    """The flows of a side moved."""
     ones = np.array([cast(WithOne, basis).one for basis in side.bases])
     turned = side.coefficients @ move[:3, :3].T
     return replace(side, coefficients=turned + ones[:, :, None] * move[:3, 3])
-
-
-def _fit(fit: BladeFit, move: Array) -> BladeFit:
-    suction, pressure = (_side(side, move) for side in (fit.suction, fit.pressure))
-    return replace(fit, suction=suction, pressure=pressure, lines=moved_lines(fit.lines, move))
 
 
 def moved_lines(lines: BladeLines, move: Array) -> BladeLines:
@@ -87,8 +67,3 @@ def _outline(outline: Outline, move: Array) -> Outline:
 
 def _track(track: Track, move: Array) -> Track:
     return replace(track, line=Line(moved_points(track.line.points, move), track.line.closed))
-
-
-def _feet(feet: Feet, move: Array) -> Feet:
-    normal = feet.normal @ move[:3, :3].T
-    return replace(feet, foot=moved_points(feet.foot, move), normal=normal)

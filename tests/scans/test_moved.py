@@ -14,8 +14,9 @@ from bladecad.fit.blade import BladeFit, Order
 from bladecad.fit.judge import Bench, judge
 from bladecad.fit.order import fit_blade
 from bladecad.scans.blade_frame import blade_frame
+from bladecad.scans.fitting.moved_whole import moved_whole
 from bladecad.scans.fitting.whole import WholeFit
-from bladecad.scans.moved import moved_points, moved_sections, moved_surface, moved_whole
+from bladecad.scans.moved import moved_points, moved_sections, moved_surface
 from bladecad.surface.blade import BladeSurface
 from bladecad.surface.loft import SIDES
 
