@@ -24,7 +24,6 @@ from bladecad.fit.modal import prepare
 from bladecad.fit.order import fit_blade, met
 from bladecad.fit.segments import fit_segments
 from bladecad.one_thread import one_thread
-from bladecad.pipeline.ahead import BODY, import_ahead
 from bladecad.pipeline.body import body_of
 from bladecad.pipeline.clock import Clock, Progress
 from bladecad.surface.between import leave_one_out
@@ -158,7 +157,6 @@ def build(
         sections, found, keep = load(path, settings)
         lines = split(sections, settings, keep)
         odd = odd_sections(properties(lines, sections.axis))
-    import_ahead(*BODY)
     with clock.step("fit"):
         scatter = noise(sections)
         fitted = fit(lines, settings, scatter, progress)

@@ -16,7 +16,6 @@ from bladecad.data.read_scan import read_scan
 from bladecad.data.scan import Scan
 from bladecad.data.sections import Axis, Sections
 from bladecad.errors import DataError, GeometryError
-from bladecad.pipeline.ahead import BODY, import_ahead
 from bladecad.pipeline.body import body_of
 from bladecad.pipeline.clock import Clock, Progress
 from bladecad.pipeline.scan_build import ScanBuild
@@ -71,7 +70,6 @@ def build_scan(
         airfoil = airfoil_of(scan, settings)
     with clock.step("slice"):
         sections, lines = slices_of(airfoil, settings)
-    import_ahead(*BODY)
     with clock.step("fit the surface"):
         with _said_of(scan, "no surface follows the points: "):
             whole = fit_scan(

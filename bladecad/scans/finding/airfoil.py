@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from typing import Final, final
@@ -96,24 +97,8 @@ def find_airfoil(
     """
     with one_thread():
         alone, island = _alone(scan)
-        points = skin(scan, ENOUGH, ~alone)
-        refuse_few_or_flat(points)
-        several = loose(scan.points[~alone], island[~alone]) if scan.triangles is None else NONE
-        if several.blades > 1 and not allow_partial:
-            raise several_blades(several.blades)
         find = partial(located, axis=axis, span=span, height=height)
-        found: Located | None = None
-        if several.blades < 2:
-            try:
-                found = find(points)
-            except DataError:
-                several = on_a_hub(points) if allow_partial else NONE
-                if several.blades < 2:
-                    raise
-        blades, other = _beside(scan.points, several, alone)
-        if found is None:
-            points = skin(scan, ENOUGH, ~(alone | other))
-            found = find(points)
+        found, points, blades, other = _one_blade(scan, alone, island, find, allow_partial)
         sided = one_sided(points, found)
         refuse_one_sided(sided, found, allow_partial=allow_partial, given=span is not None)
         more = left_beyond(points, found) if span is None and sided.free else ()
@@ -130,10 +115,33 @@ def find_airfoil(
     )  # fmt: skip
 
 
-def _beside(points: Points, several: Several, alone: Mask) -> tuple[tuple[Beside, ...], Mask]:
-    """The blades of a scan with several, most points first, and which points are not of it."""
+def _one_blade(
+    scan: Scan,
+    alone: Mask,
+    island: NDArray[np.int64],
+    find: Callable[[Points], Located],
+    allow_partial: bool,
+) -> tuple[Located, Points, tuple[Beside, ...], Mask]:
+    """A blade, points of its skin, the blades where there are several, and points of the others."""
+    points = skin(scan, ENOUGH, ~alone)
+    refuse_few_or_flat(points)
+    several = loose(scan.points[~alone], island[~alone]) if scan.triangles is None else NONE
+    if several.blades > 1 and not allow_partial:
+        raise several_blades(several.blades)
     if several.blades < 2:
-        return (), np.zeros(len(points), bool)
+        try:
+            return find(points), points, (), np.zeros(len(scan.points), bool)
+        except DataError:
+            several = on_a_hub(points) if allow_partial else NONE
+            if several.blades < 2:
+                raise
+    blades, other = _beside(scan.points, several, alone)
+    points = skin(scan, ENOUGH, ~(alone | other))
+    return find(points), points, blades, other
+
+
+def _beside(points: Points, several: Several, alone: Mask) -> tuple[tuple[Beside, ...], Mask]:
+    """The blades of a scan, most points first, and which points are not of the first."""
     whose = several.whose(points)
     held = np.bincount(whose[~alone], minlength=several.blades)[: several.blades]
     order = np.argsort(-held, kind="stable")
